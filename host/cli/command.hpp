@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "common/result.hpp"
+
+namespace cartwright::cli {
+
+/// Exit statuses of every command.
+enum class Status {
+  done = 0,
+  no = 1,        ///< the answer is "no": a check failed
+  unusable = 2,  ///< unusable input, said in one line on standard error
+};
+
+/// What a command gives back: a status, or what made its input unusable.
+using Outcome = Result<Status>;
+
+/// Registers `run` as what the subcommand does; its outcome becomes the program's exit status.
+template <typename Run>
+void on_run(CLI::App* command, int& exit_status, Run run) {
+  command->callback([run = std::move(run), &exit_status] {
+    const Outcome outcome = run();
+    if (!outcome) std::fprintf(stderr, "cartwright: %s\n", outcome.error().message.c_str());
+    exit_status = static_cast<int>(outcome.value_or(Status::unusable));
+  });
+}
+
+// One function per command, each in a file of its own.
+void add_simulate(CLI::App& app, int& exit_status);
+
+}  // namespace cartwright::cli

@@ -1,0 +1,27 @@
+#include <cstdio>
+#include <exception>
+
+#include "host/cli/command.hpp"
+
+int main(int argc, char** argv) {
+  using namespace cartwright::cli;
+  CLI::App app{"Cartwright: identify a DC-motor cart, predict it, and find what its model leaves out"};
+  app.name("cartwright");
+  app.set_version_flag("--version", CARTWRIGHT_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  int exit_status = 0;
+  add_simulate(app, exit_status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "cartwright: %s; see cartwright --help\n", error.what());
+    return static_cast<int>(Status::unusable);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cartwright: %s\n", error.what());
+    return static_cast<int>(Status::unusable);
+  }
+  return exit_status;
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/control/dual_relay.hpp"
+#include "common/control/pd.hpp"
+#include "common/result.hpp"
+#include "host/session/csv.hpp"
+
+namespace cartwright {
+
+struct Rig {
+  std::string name = "cart";
+  double sample_rate_hz = 1000;
+  double encoder_resolution_m = 0;
+  double voltage_limit_V = 12;
+  std::array<double, 2> travel_m{-0.4, 0.4};
+
+  double period_s() const { return 1 / sample_rate_hz; }
+};
+
+/// The control law a recording was made with; none for a foreign recording.
+using ControllerSpec = std::variant<std::monostate, PdGains, DualRelayGains>;
+
+/// One recording: a row per controller tick. `y_m` was read at the row's own `t_s`; `u_V`, the command after the
+/// limit, holds until the next row. Optional columns are empty where the file has none.
+struct Recording {
+  std::string file;
+  std::string experiment;
+  ControllerSpec controller;
+  std::string repeat_of;
+
+  std::vector<double> t_s, y_m, u_V;
+  std::vector<double> r_m, d_V;
+  std::map<std::string, std::vector<double>> other_columns;  ///< kept as read; empty cells are NaN
+
+  std::size_t size() const { return t_s.size(); }
+  bool has_controller() const { return !std::holds_alternative<std::monostate>(controller); }
+  double added_V(std::size_t row) const { return d_V.empty() ? 0.0 : d_V[row]; }
+};
+
+struct Session {
+  Rig rig;
+  std::vector<Recording> recordings;
+};
+
+/// Moves the columns of a table into a recording and checks them: required ones there, finite, time increasing.
+Result<void> take_columns(Recording& recording, CsvTable table, const std::string& source);
+CsvTable to_table(const Recording& recording);
+
+/// Reads `session.toml` and every recording it names.
+Result<Session> read_session(const std::filesystem::path& directory);
+
+/// Writes `session.toml` and the recordings. Files appear whole or not at all.
+Result<void> write_session(const Session& session, const std::filesystem::path& directory);
+
+}  // namespace cartwright
