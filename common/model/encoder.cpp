@@ -34,10 +34,15 @@ double Encoder::read(double position_m, double velocity_m_per_s, double elapsed_
       uniform(random_) < -std::expm1(-rate_per_s_ * elapsed_s)) {
     offset_m_ -= std::copysign(burst_m_, velocity_m_per_s);
   }
-  double y = position_m + offset_m_;
-  if (amplitude_m_ != 0) y += amplitude_m_ * std::sin(wavenumber_rad_per_m_ * position_m + phase_rad_);
+  const double y = seen(position_m);
   if (resolution_m_ <= 0) return y;
   return resolution_m_ * std::round(y / resolution_m_);
+}
+
+double Encoder::seen(double position_m) const noexcept {
+  double y = position_m + offset_m_;
+  if (amplitude_m_ != 0) y += amplitude_m_ * std::sin(wavenumber_rad_per_m_ * position_m + phase_rad_);
+  return y;
 }
 
 }  // namespace cartwright

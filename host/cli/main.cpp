@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   int exit_status = 0;
+  add_evaluate(app, exit_status);
   add_simulate(app, exit_status);
   try {
     app.parse(argc, argv);

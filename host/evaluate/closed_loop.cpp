@@ -40,7 +40,8 @@ void run(Plant& plant, Encoder& encoder, Command&& command, Recording& out) {
 
 }  // namespace
 
-Recording simulate(const Model& model, const Rig& rig, const Recording& recording, const ClosedLoopOptions& options) {
+Recording simulate(const Model& model, const Rig& rig, const Recording& recording,
+                   const ClosedLoopOptions& options) {
   PlantOptions plant_options;
   plant_options.disturbance_active = model.disturbance_recording == recording.file;
   plant_options.heating_start_s = recording.t_s.front();
@@ -51,7 +52,8 @@ Recording simulate(const Model& model, const Rig& rig, const Recording& recordin
   if (const auto* pd = std::get_if<PdGains>(&recording.controller)) {
     run(plant, encoder, Loop<PdController>{recording, {*pd, rig.period_s(), rig.voltage_limit_V}}, out);
   } else if (const auto* relay = std::get_if<DualRelayGains>(&recording.controller)) {
-    run(plant, encoder, Loop<DualRelayController>{recording, {*relay, rig.period_s(), rig.voltage_limit_V}}, out);
+    run(plant, encoder, Loop<DualRelayController>{recording, {*relay, rig.period_s(), rig.voltage_limit_V}},
+        out);
   } else {
     run(plant, encoder, RecordedVoltage{recording}, out);
   }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/model/model.hpp"
+#include "host/session/session.hpp"
+
+namespace cartwright {
+
+struct ReplayOptions {
+  double window_s = 0.5;            ///< length of the windows, by the recorded times
+  double step_s = 1.5e-3;           ///< greatest inner step of the plant; stiff models choose a finer one
+  std::size_t open_loop_rows = 20;  ///< rows that give the start state of the open loop
+  int iterations = 12;              ///< most Gauss-Newton steps for one start state
+};
+
+/// The recorded voltage replayed on a model over consecutive windows. In each window the start state (y0, v0)
+/// of the cart is the one that minimises the squared position error of that window (Gauss-Newton with a step
+/// guard); what else the model holds at that moment (voltages on their way through a delay, armature,
+/// bristle, the motor's place in a backlash) is what the window before left, and rest at the start of a
+/// recording or after a gap. Windows never cross a gap.
+///
+/// Returns the predicted reading [m] of every row, not rounded to counts; NaN in stretches of fewer than four
+/// rows. Depends on its arguments alone and may be called from several threads at once.
+std::vector<double> replay_windows(const Model& model, const Recording& recording,
+                                   const ReplayOptions& options = {});
+
+/// The recorded voltage replayed from the start of the recording (and again after each gap), the start state
+/// fitted in the same way to the first `open_loop_rows` rows. Returns the predicted reading of every row; NaN
+/// where a stretch has no more rows than those.
+std::vector<double> replay_open_loop(const Model& model, const Recording& recording,
+                                     const ReplayOptions& options = {});
+
+/// Sum of squares and number of the rows that both have a value.
+struct SquaredError {
+  double sum_m2 = 0;
+  std::size_t rows = 0;
+
+  void add(double predicted_m, double measured_m);
+  void add(const SquaredError& other);
+  double rms_m() const;  ///< NaN for no rows
+};
+
+SquaredError squared_error(std::span<const double> predicted_m, std::span<const double> measured_m);
+
+/// As above, leaving out the first `open_loop_rows` rows of each stretch, which gave the start state.
+SquaredError open_loop_error(std::span<const double> predicted_m, const Recording& recording,
+                             const ReplayOptions& options = {});
+
+}  // namespace cartwright
