@@ -63,6 +63,9 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
     table.names.emplace_back(name);
     return true;
   });
+  // Some programs end every line with a separator: a nameless last column that stays empty.
+  const bool ends_with_separator = table.names.size() > 1 && table.names.back().empty();
+  if (ends_with_separator) table.names.pop_back();
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     if (table.names[i].empty()) return failure(fmt::format("{}:1: column {} has no name", source, i + 1));
     if (std::count(table.names.begin(), table.names.end(), table.names[i]) > 1) {
@@ -78,6 +81,7 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
     std::string problem;
     cells(line, [&](std::string_view cell) {
       if (column >= table.columns.size()) {
+        if (ends_with_separator && cell.empty()) return false;
         ++column;
         return false;
       }
@@ -86,8 +90,8 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
         if (cell.front() == '+') cell.remove_prefix(1);
         const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
         if (error != std::errc{} || end != cell.data() + cell.size()) {
-          problem = fmt::format("{}:{}: {} is '{}', a number is needed", source, line_number, table.names[column],
-                                cell.substr(0, 40));
+          problem = fmt::format("{}:{}: {} is '{}', a number is needed", source, line_number,
+                                table.names[column], cell.substr(0, 40));
           return false;
         }
       }

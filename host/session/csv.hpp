@@ -18,9 +18,9 @@ struct CsvTable {
   const std::vector<double>* find(std::string_view name) const;
 };
 
-/// Reads CSV text. Tolerant: byte-order mark, CRLF, blank lines, spaces and quotes around cells, a semicolon or tab
-/// as separator. Strict: a header line, unique names, numbers only, the same number of cells in every row.
-/// `source` names the file in messages.
+/// Reads CSV text. Tolerant: byte-order mark, CRLF, blank lines, spaces and quotes around cells, a semicolon
+/// or tab as separator. Strict: a header line, unique names, numbers only, the same number of cells in every
+/// row. `source` names the file in messages.
 Result<CsvTable> parse_csv(std::string_view text, std::string_view source);
 Result<CsvTable> read_csv(const std::filesystem::path& file);
 
