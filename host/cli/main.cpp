@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   int exit_status = 0;
   add_evaluate(app, exit_status);
   add_import(app, exit_status);
+  add_export(app, exit_status);
   add_simulate(app, exit_status);
   try {
     app.parse(argc, argv);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <cmath>
 #include <set>
-#include <toml++/toml.h>
 
 #include "host/session/controller_toml.hpp"
 #include "host/session/files.hpp"
@@ -21,7 +21,8 @@ Result<Recording> read_entry(const TomlReader& entry) {
   if (!file) return tl::unexpected(file.error());
   recording.file = *file;
   if (fs::path(recording.file).has_parent_path()) {
-    return failure(fmt::format("{}: file = \"{}\" must lie beside session.toml", entry.where(), recording.file));
+    return failure(
+        fmt::format("{}: file = \"{}\" must lie beside session.toml", entry.where(), recording.file));
   }
   const auto experiment = entry.text("experiment", "");
   if (!experiment) return tl::unexpected(experiment.error());
@@ -52,14 +53,13 @@ Result<void> take_columns(Recording& recording, CsvTable table, const std::strin
       return {};
     }
     if (!required) return {};
-    return failure(fmt::format("{}:1: no column {}; t_s, y_m and u_V are required, and r_m where a controller is given",
-                               source, name));
+    return failure(
+        fmt::format("{}:1: no column {}; t_s, y_m and u_V are required, and r_m where a controller is given",
+                    source, name));
   };
   const std::tuple<std::string_view, std::vector<double>*, bool> wanted[] = {
-      {"t_s", &recording.t_s, true},
-      {"y_m", &recording.y_m, true},
-      {"u_V", &recording.u_V, true},
-      {"r_m", &recording.r_m, recording.has_controller()},
+      {"t_s", &recording.t_s, true},  {"y_m", &recording.y_m, true},
+      {"u_V", &recording.u_V, true},  {"r_m", &recording.r_m, recording.has_controller()},
       {"d_V", &recording.d_V, false},
   };
   for (const auto& [name, into, required] : wanted) {
@@ -71,8 +71,8 @@ Result<void> take_columns(Recording& recording, CsvTable table, const std::strin
   }
   for (std::size_t row = 1; row < recording.size(); ++row) {
     if (!(recording.t_s[row] > recording.t_s[row - 1])) {
-      return failure(fmt::format("{}:{}: t_s goes from {} to {}; time must increase strictly", source, row + 2,
-                                 recording.t_s[row - 1], recording.t_s[row]));
+      return failure(fmt::format("{}:{}: t_s goes from {} to {}; time must increase strictly", source,
+                                 row + 2, recording.t_s[row - 1], recording.t_s[row]));
     }
   }
   for (std::size_t i = 0; i < table.names.size(); ++i) {
@@ -96,7 +96,8 @@ Result<Session> read_session(const fs::path& directory) {
 
   const auto entries = root.tables("recording");
   if (!entries) return tl::unexpected(entries.error());
-  if (entries->empty()) return failure(fmt::format("{}: no [[recording]]; a session needs at least one", file.string()));
+  if (entries->empty())
+    return failure(fmt::format("{}: no [[recording]]; a session needs at least one", file.string()));
   std::set<std::string> seen;
   for (const TomlReader& entry : *entries) {
     auto recording = read_entry(entry);
@@ -136,18 +137,17 @@ CsvTable to_table(const Recording& recording) {
 }
 
 Result<void> write_session(const Session& session, const fs::path& directory) {
-  const auto made = make_directory(directory);
-  if (!made) return made;
+  std::vector<NamedText> files;
   std::string text = rig_to_toml(session.rig);
   for (const Recording& recording : session.recordings) {
-    const auto written = write_file(directory / recording.file, to_csv(to_table(recording)));
-    if (!written) return written;
+    files.push_back({recording.file, to_csv(to_table(recording))});
     text += fmt::format("\n[[recording]]\nfile = \"{}\"\n", recording.file);
     if (!recording.experiment.empty()) text += fmt::format("experiment = \"{}\"\n", recording.experiment);
     text += controller_to_toml(recording.controller);
     if (!recording.repeat_of.empty()) text += fmt::format("repeat_of = \"{}\"\n", recording.repeat_of);
   }
-  return write_file(directory / "session.toml", text);
+  files.push_back({"session.toml", std::move(text)});
+  return write_files(directory, files);
 }
 
 }  // namespace cartwright

@@ -27,8 +27,8 @@ struct Rig {
 /// The control law a recording was made with; none for a foreign recording.
 using ControllerSpec = std::variant<std::monostate, PdGains, DualRelayGains>;
 
-/// One recording: a row per controller tick. `y_m` was read at the row's own `t_s`; `u_V`, the command after the
-/// limit, holds until the next row. Optional columns are empty where the file has none.
+/// One recording: a row per controller tick. `y_m` was read at the row's own `t_s`; `u_V`, the command after
+/// the limit, holds until the next row. Optional columns are empty where the file has none.
 struct Recording {
   std::string file;
   std::string experiment;
@@ -49,14 +49,15 @@ struct Session {
   std::vector<Recording> recordings;
 };
 
-/// Moves the columns of a table into a recording and checks them: required ones there, finite, time increasing.
+/// Moves the columns of a table into a recording and checks them: required ones there, finite, time
+/// increasing.
 Result<void> take_columns(Recording& recording, CsvTable table, const std::string& source);
 CsvTable to_table(const Recording& recording);
 
 /// Reads `session.toml` and every recording it names.
 Result<Session> read_session(const std::filesystem::path& directory);
 
-/// Writes `session.toml` and the recordings. Files appear whole or not at all.
+/// Writes `session.toml` and the recordings: all of it, or nothing and no directory.
 Result<void> write_session(const Session& session, const std::filesystem::path& directory);
 
 }  // namespace cartwright

@@ -1,0 +1,81 @@
+#include "host/session/files.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+namespace cartwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(directory_); }
+  void TearDown() override { fs::remove_all(directory_); }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(directory_), fs::directory_iterator{}));
+  }
+  const fs::path directory_ =
+      fs::temp_directory_path() / ("cartwright_files_" + std::to_string(::getpid()) +
+                                   testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+/// While alive no file may grow beyond `bytes`: what a full disk does, without one.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+const std::vector<NamedText> kTwo = {{"small", "text"}, {"large", std::string(100000, 'x')}};
+
+TEST_F(Files, AreAllWritten) {
+  ASSERT_TRUE(write_files(directory_ / "a" / "b", kTwo));
+  EXPECT_EQ(read_file(directory_ / "a/b/small").value(), "text");
+  EXPECT_EQ(read_file(directory_ / "a/b/large").value().size(), 100000u);
+}
+
+TEST_F(Files, LeaveNothingBehindOnAFullDisk) {
+  {
+    const SmallDisk full(5000);
+    EXPECT_FALSE(write_files(directory_ / "a" / "b", kTwo));
+    EXPECT_FALSE(write_file(directory_ / "alone", kTwo[1].text));
+  }
+  EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(Files, KeepWhatWasThereOnAFullDisk) {
+  ASSERT_TRUE(write_files(directory_, {{"small", "before"}, {"large", "before"}}));
+  {
+    const SmallDisk full(5000);
+    EXPECT_FALSE(write_files(directory_, kTwo));
+  }
+  EXPECT_EQ(read_file(directory_ / "small").value(), "before");
+  EXPECT_EQ(read_file(directory_ / "large").value(), "before");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(Files, SayWhyTheyCannotBeWritten) {
+  ASSERT_TRUE(write_file(directory_ / "file", "text"));
+  const auto written = write_files(directory_ / "file" / "in_it", kTwo);
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find("Not a directory"), std::string::npos) << written.error().message;
+}
+
+}  // namespace
+}  // namespace cartwright
