@@ -1,18 +1,3 @@
 #pragma once
 
-#include <string>
-
-#include "host/session/session.hpp"
-#include "host/session/toml_reader.hpp"
-
-namespace cartwright {
-
-/// `[rig]`: its numbers, checked. An absent table is an error.
-Result<Rig> rig_from_toml(const TomlReader& root);
-std::string rig_to_toml(const Rig& rig);
-
-/// `controller = { type = "pd" | "dual_relay", ... }` of a recording; none where there is no such key.
-Result<ControllerSpec> controller_from_toml(const TomlReader& entry);
-std::string controller_to_toml(const ControllerSpec& controller);
-
-}  // namespace cartwright
+#include "common/config/controller_toml.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "host/session/controller_toml.hpp"
+#include "common/config/controller_toml.hpp"
+#include "common/config/toml_reader.hpp"
 #include "host/session/files.hpp"
-#include "host/session/toml_reader.hpp"
 
 namespace cartwright {
 namespace {

@@ -1,31 +1,15 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "common/control/dual_relay.hpp"
-#include "common/control/pd.hpp"
+#include "common/config/rig.hpp"
 #include "common/result.hpp"
 #include "host/session/csv.hpp"
 
 namespace cartwright {
-
-struct Rig {
-  std::string name = "cart";
-  double sample_rate_hz = 1000;
-  double encoder_resolution_m = 0;
-  double voltage_limit_V = 12;
-  std::array<double, 2> travel_m{-0.4, 0.4};
-
-  double period_s() const { return 1 / sample_rate_hz; }
-};
-
-/// The control law a recording was made with; none for a foreign recording.
-using ControllerSpec = std::variant<std::monostate, PdGains, DualRelayGains>;
 
 /// One recording: a row per controller tick. `y_m` was read at the row's own `t_s`; `u_V`, the command after
 /// the limit, holds until the next row. Optional columns are empty where the file has none.

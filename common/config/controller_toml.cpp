@@ -1,4 +1,4 @@
-#include "host/session/controller_toml.hpp"
+#include "common/config/controller_toml.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,8 @@ Result<Rig> rig_from_toml(const TomlReader& root) {
       {"voltage_limit_V", &rig.voltage_limit_V, 0, 1e6, false},
   };
   for (const auto& [key, into, least, most, required] : numbers) {
-    const auto value = required ? entry.required_number(key, least, most) : entry.number(key, *into, least, most);
+    const auto value =
+        required ? entry.required_number(key, least, most) : entry.number(key, *into, least, most);
     if (!value) return tl::unexpected(value.error());
     *into = *value;
   }
@@ -38,7 +39,8 @@ std::string rig_to_toml(const Rig& rig) {
   return fmt::format(
       "[rig]\nname = \"{}\"\nsample_rate_hz = {}\nencoder_resolution_m = {}\nvoltage_limit_V = {}\n"
       "travel_m = [{}, {}]\n",
-      rig.name, rig.sample_rate_hz, rig.encoder_resolution_m, rig.voltage_limit_V, rig.travel_m[0], rig.travel_m[1]);
+      rig.name, rig.sample_rate_hz, rig.encoder_resolution_m, rig.voltage_limit_V, rig.travel_m[0],
+      rig.travel_m[1]);
 }
 
 Result<ControllerSpec> controller_from_toml(const TomlReader& entry) {
@@ -50,7 +52,8 @@ Result<ControllerSpec> controller_from_toml(const TomlReader& entry) {
   if (!type) return tl::unexpected(type.error());
   constexpr double kMost = 1e9;
   if (*type == "pd") {
-    const auto known = spec.only({"type", "kp_V_per_m", "kd_V_s_per_m", "derivative_filter_hz", "derivative_on"});
+    const auto known =
+        spec.only({"type", "kp_V_per_m", "kd_V_s_per_m", "derivative_filter_hz", "derivative_on"});
     if (!known) return tl::unexpected(known.error());
     const auto kp = spec.required_number("kp_V_per_m", -kMost, kMost);
     const auto kd = spec.number("kd_V_s_per_m", 0, -kMost, kMost);
@@ -61,7 +64,8 @@ Result<ControllerSpec> controller_from_toml(const TomlReader& entry) {
     }
     if (!on) return tl::unexpected(on.error());
     if (*on != "error" && *on != "measurement") {
-      return failure(fmt::format("{}: derivative_on must be \"error\" or \"measurement\"", spec.where("derivative_on")));
+      return failure(
+          fmt::format("{}: derivative_on must be \"error\" or \"measurement\"", spec.where("derivative_on")));
     }
     return PdGains{*kp, *kd, *filter, *on == "measurement"};
   }
@@ -88,8 +92,9 @@ std::string controller_to_toml(const ControllerSpec& controller) {
         pd->derivative_on_measurement ? ", derivative_on = \"measurement\"" : "");
   }
   if (const auto* relay = std::get_if<DualRelayGains>(&controller)) {
-    return fmt::format("controller = {{ type = \"dual_relay\", h1_V = {}, h2_V = {}{} }}\n", relay->h1_V, relay->h2_V,
-                       relay->hysteresis_m > 0 ? fmt::format(", hysteresis_m = {}", relay->hysteresis_m) : "");
+    return fmt::format(
+        "controller = {{ type = \"dual_relay\", h1_V = {}, h2_V = {}{} }}\n", relay->h1_V, relay->h2_V,
+        relay->hysteresis_m > 0 ? fmt::format(", hysteresis_m = {}", relay->hysteresis_m) : "");
   }
   return {};
 }

@@ -1,4 +1,4 @@
-#include "host/session/toml_reader.hpp"
+#include "common/config/toml_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,9 @@ Result<toml::table> parse_toml(std::string_view text, std::string_view source) {
   }
 }
 
-std::string TomlReader::where() const { return fmt::format("{}:{}", source_, table_->source().begin.line); }
+std::string TomlReader::where() const {
+  return fmt::format("{}:{}", source_, table_->source().begin.line);
+}
 
 std::string TomlReader::where(std::string_view key) const {
   const toml::node* node = table_->get(key);
@@ -26,7 +28,8 @@ Result<double> TomlReader::required_number(std::string_view key, double least, d
   const toml::node* node = table_->get(key);
   if (!node) return failure(fmt::format("{}: {} is missing", where(), key));
   const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value)) return failure(fmt::format("{}: {} must be a finite number", where(key), key));
+  if (!value || !std::isfinite(*value))
+    return failure(fmt::format("{}: {} must be a finite number", where(key), key));
   if (*value < least || *value > most) {
     return failure(fmt::format("{}: {} = {} is outside [{}, {}]", where(key), key, *value, least, most));
   }
@@ -94,8 +97,8 @@ Result<std::vector<TomlReader>> TomlReader::tables(std::string_view key) const {
 Result<void> TomlReader::only(std::initializer_list<std::string_view> known) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
-      return failure(fmt::format("{}:{}: unknown key {}; known are {}", source_, key.source().begin.line, key.str(),
-                                 fmt::join(known, ", ")));
+      return failure(fmt::format("{}:{}: unknown key {}; known are {}", source_, key.source().begin.line,
+                                 key.str(), fmt::join(known, ", ")));
     }
   }
   return {};
