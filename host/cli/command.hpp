@@ -31,6 +31,7 @@ void on_run(CLI::App* command, int& exit_status, Run run) {
 void add_evaluate(CLI::App& app, int& exit_status);
 void add_import(CLI::App& app, int& exit_status);
 void add_export(CLI::App& app, int& exit_status);
+void add_plot(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
 
 }  // namespace cartwright::cli

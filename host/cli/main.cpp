@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   add_evaluate(app, exit_status);
   add_import(app, exit_status);
   add_export(app, exit_status);
+  add_plot(app, exit_status);
   add_simulate(app, exit_status);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,16 @@
+# cmake -DOUT=assets.cpp -DASSETS=a.css|b.js -P embed.cmake: writes the files into one C++ source.
+string(REPLACE "|" ";" files "${ASSETS}")
+set(text "#include \"host/report/assets.hpp\"\n\nnamespace cartwright::report {\nnamespace {\n")
+set(table "")
+set(number 0)
+foreach(file IN LISTS files)
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} hex HEX)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${hex}")
+  string(APPEND text "constexpr char asset_${number}[] = {${bytes}'\\0'};\n")
+  string(APPEND table "      {\"${name}\", {asset_${number}, sizeof asset_${number} - 1}},\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND text "}  // namespace\n\nconst std::vector<Asset>& assets() {\n"
+  "  static const std::vector<Asset> all{\n${table}  };\n  return all;\n}\n\n}  // namespace cartwright::report\n")
+file(WRITE ${OUT} "${text}")
