@@ -11,6 +11,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   int exit_status = 0;
+  add_completion(app, exit_status);
+  add_doctor(app, exit_status);
   add_evaluate(app, exit_status);
   add_import(app, exit_status);
   add_export(app, exit_status);

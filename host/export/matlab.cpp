@@ -86,7 +86,7 @@ Variable losses_variable(const std::vector<Gap>& gaps) {
   return matrix(values, gaps.size(), 2);
 }
 
-Variable recording_variable(const Rig& rig, const Recording& recording, const std::string& name) {
+Variable recording_variable(const Recording& recording, const std::string& name) {
   const CsvTable table = to_table(recording);
   std::vector<std::string> names = {"file", "experiment", "repeat_of", "controller", "losses_s"};
   const std::size_t own = names.size();
@@ -97,7 +97,7 @@ Variable recording_variable(const Rig& rig, const Recording& recording, const st
       .add("experiment", text(recording.experiment))
       .add("repeat_of", text(recording.repeat_of))
       .add("controller", controller_variable(recording.controller))
-      .add("losses_s", losses_variable(find_gaps(recording.t_s, rig.period_s())));
+      .add("losses_s", losses_variable(find_gaps(recording.t_s)));
   for (std::size_t i = 0; i < table.columns.size(); ++i) result.add(names[own + i], column(table.columns[i]));
   return result.take();
 }
@@ -140,7 +140,7 @@ Result<std::string> to_matlab(const Session& session) {
     return failure("the rig cannot be written as MATLAB version 5");
   for (std::size_t i = 0; i < session.recordings.size(); ++i) {
     const Recording& recording = session.recordings[i];
-    if (!write(recording_variable(session.rig, recording, names[i + 1]))) {
+    if (!write(recording_variable(recording, names[i + 1]))) {
       return failure(fmt::format("{}: cannot be written as MATLAB version 5", recording.file));
     }
   }

@@ -50,13 +50,13 @@ Result<std::string> to_ulog(const Rig& rig, const Recording& recording) {
 
   const std::uint16_t ticks = log.subscribe("tick");
   const std::uint16_t gain_changes = gains.names.empty() ? ticks : log.subscribe("gains");
-  const auto gaps = find_gaps(recording.t_s, rig.period_s());
+  const auto gaps = find_gaps(recording.t_s);
   auto gap = gaps.begin();
   std::vector<double> values(table.columns.size());
   for (std::size_t row = 0; row < recording.size(); ++row) {
     const std::uint64_t now_us = microseconds(recording.t_s[row]);
     if (gap != gaps.end() && gap->row == row) {
-      log.dropout(gap->to_s - gap->from_s - rig.period_s());
+      log.dropout(gap->lost_s);
       log.warning(now_us, fmt::format("{} ticks lost between {} s and {} s", gap->lost_ticks, gap->from_s,
                                       gap->to_s));
       ++gap;

@@ -2,13 +2,18 @@
 
 #include <cmath>
 
+#include "host/session/segments.hpp"
+
 namespace cartwright {
 
-std::vector<Gap> find_gaps(const std::vector<double>& time_s, double period_s) {
+std::vector<Gap> find_gaps(const std::vector<double>& time_s) {
+  const double period_s = median_period_s(time_s);
   std::vector<Gap> gaps;
-  for (std::size_t row = 1; row < time_s.size(); ++row) {
-    const double periods = (time_s[row] - time_s[row - 1]) / period_s;
-    if (periods > kGapPeriods) gaps.push_back({row, time_s[row - 1], time_s[row], std::round(periods) - 1});
+  for (const Segment& segment : segments(time_s)) {
+    if (segment.first == 0) continue;
+    const double from_s = time_s[segment.first - 1], to_s = time_s[segment.first];
+    gaps.push_back(
+        {segment.first, from_s, to_s, std::round((to_s - from_s) / period_s) - 1, to_s - from_s - period_s});
   }
   return gaps;
 }

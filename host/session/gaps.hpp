@@ -11,13 +11,11 @@ struct Gap {
   double from_s;      ///< time of the last row before it
   double to_s;        ///< time of `row`
   double lost_ticks;  ///< how many rows should have been there, rounded
+  double lost_s;      ///< how long they would have taken
 };
 
-/// The longest step between two rows, in periods, that still counts as jitter. At 1.5 the step is nearer to
-/// two periods than to one, so a row is missing.
-inline constexpr double kGapPeriods = 1.5;
-
-/// Where a recording of the given tick period has lost rows. `time_s` increases strictly.
-std::vector<Gap> find_gaps(const std::vector<double>& time_s, double period_s);
+/// What lies between the `segments` of a recording, in words a person or another program can use. `time_s`
+/// increases strictly.
+std::vector<Gap> find_gaps(const std::vector<double>& time_s);
 
 }  // namespace cartwright
