@@ -38,7 +38,8 @@ Outcome run(const Options& options) {
        {"Sample rate", fmt::format("{} Hz", session->rig.sample_rate_hz)},
        {"Encoder", fmt::format("{:.4g} µm per count", 1e6 * session->rig.encoder_resolution_m)},
        {"Voltage limit", fmt::format("±{} V", session->rig.voltage_limit_V)},
-       {"Travel", fmt::format("{} to {} m", session->rig.travel_m[0], session->rig.travel_m[1])},
+       {"Travel", fmt::format("{} to {} m", report::format_number(session->rig.travel_m[0], 2),
+                              report::format_number(session->rig.travel_m[1], 2))},
        {"Recordings", std::to_string(session->recordings.size())},
        {"Model", options.model.empty() ? "none" : std::filesystem::path(options.model).filename().string()},
        {"Made by", "cartwright " CARTWRIGHT_VERSION}});
@@ -46,7 +47,7 @@ Outcome run(const Options& options) {
   for (const Recording& recording : session->recordings) {
     page.section(recording.file);
     std::string line = (recording.experiment.empty() ? "" : recording.experiment + "; ") +
-                       report::describe(recording.controller) + ".";
+                       report::describe_fully(recording.controller) + ".";
     std::vector<report::Overlay> overlays;
     if (model) {
       Recording predicted = simulate(*model, session->rig, recording);

@@ -25,15 +25,24 @@ bool all_zero(const std::vector<double>& values) {
 
 std::string describe(const ControllerSpec& controller) {
   if (const auto* pd = std::get_if<PdGains>(&controller)) {
-    return fmt::format("PD, Kp {} V/m, Kd {} V s/m, filter {} Hz{}", pd->kp_V_per_m, pd->kd_V_s_per_m,
-                       pd->derivative_filter_hz,
-                       pd->derivative_on_measurement ? ", derivative on measurement" : "");
+    return fmt::format("PD, {:.4g} V/m, {:.4g} V s/m", pd->kp_V_per_m, pd->kd_V_s_per_m);
   }
   if (const auto* relay = std::get_if<DualRelayGains>(&controller)) {
-    return fmt::format("dual relay, h1 {} V, h2 {} V{}", relay->h1_V, relay->h2_V,
-                       relay->hysteresis_m > 0 ? fmt::format(", hysteresis {} m", relay->hysteresis_m) : "");
+    return fmt::format("dual relay, {:.4g} V, {:.4g} V", relay->h1_V, relay->h2_V);
   }
   return "none recorded";
+}
+
+std::string describe_fully(const ControllerSpec& controller) {
+  std::string out = describe(controller);
+  if (const auto* pd = std::get_if<PdGains>(&controller)) {
+    out += fmt::format(", derivative of the {} filtered at {:.4g} Hz",
+                       pd->derivative_on_measurement ? "measurement" : "error", pd->derivative_filter_hz);
+  }
+  if (const auto* relay = std::get_if<DualRelayGains>(&controller); relay && relay->hysteresis_m > 0) {
+    out += fmt::format(", hysteresis {:.4g} mm", 1e3 * relay->hysteresis_m);
+  }
+  return out;
 }
 
 std::string describe_times(const Recording& recording, double sample_rate_hz) {
@@ -51,21 +60,18 @@ std::string describe_times(const Recording& recording, double sample_rate_hz) {
 
 Table recordings_table(const Session& session) {
   Table table;
-  table.columns = {{"Recording", ""}, {"Experiment", ""}, {"Controller", ""},    {"Rows", ""},
-                   {"Length", "s"},   {"Position", "mm"}, {"Voltage, rms", "V"}, {"Times", ""}};
+  table.columns = {{"Recording"},     {"Experiment"},       {"Controller"}, {"Rows"}, {"Length", "s"},
+                   {"Least y", "mm"}, {"Greatest y", "mm"}, {"Rms u", "V"}, {"Times"}};
   for (const Recording& recording : session.recordings) {
     const auto [least, greatest] = std::minmax_element(recording.y_m.begin(), recording.y_m.end());
     double square = 0;
     for (const double u : recording.u_V) square += u * u;
-    const double rms_V = std::sqrt(square / static_cast<double>(std::max<std::size_t>(1, recording.size())));
     Cell times{describe_times(recording, session.rig.sample_rate_hz)};
     if (times.text != "even") times.mark(Tone::attention);
-    Cell rows{std::to_string(recording.size())};
-    rows.numeric = true;
-    table.row({recording.file, recording.experiment, describe(recording.controller), rows,
-               Cell::number(recording.t_s.back() - recording.t_s.front(), 3),
-               Cell(fmt::format("{:.1f} … {:.1f}", 1e3 * *least, 1e3 * *greatest)), Cell::number(rms_V, 3),
-               times});
+    table.row({recording.file, recording.experiment, describe(recording.controller),
+               Cell::integer(recording.size()), Cell::number(recording.t_s.back() - recording.t_s.front(), 3),
+               Cell::number(1e3 * *least), Cell::number(1e3 * *greatest),
+               Cell::number(std::sqrt(square / static_cast<double>(recording.size())), 3), times});
   }
   return table;
 }

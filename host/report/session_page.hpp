@@ -15,8 +15,9 @@ struct Overlay {
   std::vector<double> t_s, y_m, u_V;
 };
 
-/// "pd, 60 V/m, 0 V s/m": the control law in words.
+/// "PD, 60 V/m, 3 V s/m": kind and gains; fully: also filter, hysteresis.
 std::string describe(const ControllerSpec& controller);
+std::string describe_fully(const ControllerSpec& controller);
 
 /// Number of rows, length, and what is uneven about its times, in words.
 std::string describe_times(const Recording& recording, double sample_rate_hz);

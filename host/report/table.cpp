@@ -61,6 +61,12 @@ Cell Cell::number(double value, int significant) {
   return cell;
 }
 
+Cell Cell::integer(std::size_t value) {
+  Cell cell{std::to_string(value)};
+  cell.numeric = true;
+  return cell;
+}
+
 std::string to_html(const Table& table) {
   const std::vector<ColumnShape> columns = shapes(table);
   std::string out = "<figure class=\"table\">";

@@ -24,6 +24,7 @@ struct Cell {
   Cell(const Estimate& estimate);                                // NOLINT
 
   static Cell number(double value, int significant = 4);
+  static Cell integer(std::size_t value);
   Cell& mark(Tone new_tone) {
     tone = new_tone;
     return *this;

@@ -15,6 +15,7 @@
     const group = spec.linked ? groups.get(spec.linked) || [] : [];
     if (spec.linked) groups.set(spec.linked, group);
     group.push(plot);
+    plot.group = group;
     Zoom.attach(plot, group);
     return plot;
   });

@@ -1,7 +1,7 @@
 // One plot: its series, what part of them is looked at, and its drawing.
 const colours = {
   measured: "#1c2430", reference: "#8a939e", model: "#0072b2", other_model: "#d55e00", truth: "#009e73",
-  warning: "#b3245a", fourth: "#8055a8", muted: "#b9c0c8",
+  warning: "#b3245a", under: "#b4bdc7", fourth: "#8055a8", muted: "#b9c0c8",
 };
 const freeColours = ["#0072b2", "#d55e00", "#009e73", "#b3579a", "#c78a00", "#3f9fd6", "#1c2430", "#7a828c"];
 const escapeText = (text) => text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
@@ -14,6 +14,7 @@ class Plot {
     this.spec = spec;
     this.number = number;
     this.flipped = Boolean(spec.y.categories);
+    this.group = [this];
     let next = 0;
     this.series = spec.series.map((one) => {
       const out = { ...one, x: arrays(one.x), y: arrays(one.y), low: arrays(one.low), high: arrays(one.high) };
@@ -24,6 +25,9 @@ class Plot {
       return out;
     });
     this.placeBars();
+    // Under a model's line the measured one is drawn broad and pale, so that both are seen where they agree.
+    const lines = this.series.filter((s) => (s.mark === "line" || s.mark === "step") && s.colour !== colours.reference);
+    for (const one of lines) if (one.colour === colours.measured && lines.length > 1) Object.assign(one, { colour: colours.under, broad: true });
     if (spec.heat_map) {
       const map = (this.map = { ...spec.heat_map, values: arrays(spec.heat_map.values) });
       let [least, greatest] = Data.range(map.values);
@@ -87,18 +91,32 @@ class Plot {
     return [axis.least ?? a, axis.greatest ?? b];
   }
 
+  rows() {
+    return { top: this.spec.y.label ? 21 : 8, bottom: this.spec.height - (this.spec.x.label ? 35 : 21) };
+  }
+
+  yTicks(range) {
+    if (this.flipped) return this.categoryTicks(this.spec.y.categories, range);
+    const { top, bottom } = this.rows();
+    return Scale.ticks(range, Math.max(3, (bottom - top) / 38), this.spec.y.log);
+  }
+
+  // Room for the numbers on the left; plots that share an x axis take the widest, so that their axes line up.
+  leftMargin() {
+    const longest = Math.max(...this.yTicks(this.view.y || this.fullRange("y")).map((t) => t.text.length), 1);
+    return 14 + (this.flipped ? 6.6 : 7.2) * longest;
+  }
+
   draw(width = this.area.clientWidth) {
     if (width < 40) return;
     const { spec } = this;
     const height = spec.height;
     let x = this.view.x || this.fullRange("x");
     let y = this.view.y || this.fullRange("y");
-    const top = spec.y.label ? 21 : 8;
-    const bottom = height - (spec.x.label ? 35 : 21);
+    const { top, bottom } = this.rows();
     const right = width - (this.map ? 76 : 12);
-    const yTicks = this.flipped ? this.categoryTicks(spec.y.categories, y) : Scale.ticks(y, (bottom - top) / 42, spec.y.log);
-    const longest = Math.max(...yTicks.map((t) => t.text.length), 1);
-    const left = Math.min(width * 0.45, 14 + (this.flipped ? 6.6 : 7.2) * longest);
+    const yTicks = this.yTicks(y);
+    const left = Math.min(width * 0.45, Math.max(...this.group.map((plot) => plot.leftMargin())));
     if (spec.square) [x, y] = this.squared(x, y, right - left, bottom - top);
     const xTicks = spec.x.categories ? this.categoryTicks(spec.x.categories, x) : Scale.ticks(x, (right - left) / 85, spec.x.log);
     const sx = (this.sx = Scale.make(x, [left, right], spec.x.log));
@@ -151,7 +169,7 @@ class Plot {
       case "band": return `<path d="${Marks.band(one, sx, sy)}" fill="${one.colour}" fill-opacity="0.2"/>`;
       case "bars": return `<path d="${Marks.bars(one, sx, sy, this.flipped)}" fill="${one.colour}"/>` + errors;
       case "points": return errors + `<path d="${Marks.dots(one, sx, sy)}" ${stroke} stroke-linecap="round" stroke-width="${one.x.length > 400 ? 2.6 : 6}"/>`;
-      default: return errors + `<path d="${Marks.path(one, sx, sy, one.mark === "step")}" ${stroke} stroke-width="1.5"${dash}/>`;
+      default: return errors + `<path d="${Marks.path(one, sx, sy, one.mark === "step")}" ${stroke} stroke-width="${one.broad ? 4.5 : 1.5}"${one.broad ? ' stroke-linecap="round"' : ""}${dash}/>`;
     }
   }
 
@@ -201,9 +219,9 @@ class Plot {
       button.type = "button";
       button.title = "show or hide";
       const shape = { points: '<circle cx="9" cy="5" r="3.2"', bars: '<rect x="4" y="0" width="10" height="10"', band: '<rect x="1" y="1" width="16" height="8" fill-opacity="0.25"' }[one.mark];
-      button.innerHTML = `<svg width="18" height="10" aria-hidden="true">${shape ? `${shape} fill="${one.colour}"/>` : `<path d="M0 5H18" stroke="${one.colour}" stroke-width="2.2"${one.dashed ? ' stroke-dasharray="5 3"' : ""}/>`}</svg>${escapeText(one.name)}`;
+      button.innerHTML = `<svg width="18" height="10" aria-hidden="true">${shape ? `${shape} fill="${one.colour}"/>` : `<path d="M0 5H18" stroke="${one.colour}" stroke-width="${one.broad ? 5 : 2.2}"${one.dashed ? ' stroke-dasharray="5 3"' : ""}/>`}</svg>${escapeText(one.name)}`;
       const show = () => button.setAttribute("aria-pressed", String(one.shown));
-      button.addEventListener("click", () => { one.shown = !one.shown; show(); this.draw(); });
+      button.addEventListener("click", () => { one.shown = !one.shown; show(); this.group.forEach((plot) => plot.draw()); });
       show();
       legend.append(button);
     });

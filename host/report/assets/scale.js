@@ -17,14 +17,26 @@ const Scale = (() => {
     return "10" + String(exponent).split("").map((c) => superscripts[c]).join("");
   }
 
+  // 1, 2 or 5 times a power of ten, not below `rough`.
+  function roundStep(rough) {
+    const power = 10 ** Math.floor(Math.log10(rough));
+    return power * [1, 2, 5, 10].find((m) => m * power >= rough * 0.999);
+  }
+
+  function multiples(domain, step) {
+    const out = [];
+    const slack = 1e-9 * (domain[1] - domain[0]);
+    for (let k = Math.ceil((domain[0] - slack) / step); k * step <= domain[1] + slack; ++k) out.push(k * step);
+    return out;
+  }
+
   function ticks(domain, count, log) {
     if (log) return logTicks(domain, count);
     const span = domain[1] - domain[0];
-    const rough = span / Math.max(1, count);
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const step = power * [1, 2, 5, 10].find((m) => m * power >= rough * 0.999);
-    const out = [];
-    for (let k = Math.ceil(domain[0] / step - 1e-9); k * step <= domain[1] + 1e-9 * span; ++k) out.push(k * step);
+    let step = roundStep(span / Math.max(1, count));
+    let out = multiples(domain, step);
+    // Two numbers at least, or nobody can read a value off the axis.
+    for (let tries = 0; out.length < 2 && tries < 4; ++tries) out = multiples(domain, (step = roundStep(step / 2.5)));
     const size = Math.max(Math.abs(domain[0]), Math.abs(domain[1]));
     const exponent = size >= 1e5 || size < 2e-3 ? Math.floor(Math.log10(size)) : 0;
     const decimals = Math.max(0, Math.min(12, exponent - Math.floor(Math.log10(step) + 1e-9)));

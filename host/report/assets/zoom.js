@@ -142,7 +142,7 @@ const Zoom = (() => {
       marks += `<circle cx="${sx(at)}" cy="${sy(value)}" r="3.5" fill="${one.colour}" stroke="#fff"/>`;
     }
     plot.overlay.innerHTML = `<line class="cross" x1="${px}" x2="${px}" y1="${box.top}" y2="${box.bottom}"/>${marks}`;
-    show(plot, owner && rows ? `<div class="row"><span class="name">${escapeText(spec.x.label || "x")}</span><span>${shown(spec.x, x)}</span></div>${rows}` : rows, px);
+    show(plot, owner && rows ? `<div class="row"><span class="name">${escapeText((plot.group.find((p) => p.spec.x.label) || plot).spec.x.label || "x")}</span><span>${shown(spec.x, x)}</span></div>${rows}` : rows, px);
   }
 
   function readNearest(plot, px, py) {
