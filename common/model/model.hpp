@@ -9,13 +9,15 @@
 
 namespace cartwright {
 
-/// A cart model: its voltage gain and the terms that are present, with their numbers (contract: vocabulary.hpp).
-/// A term is present once it is added or one of its parameters is set; absent terms have no effect whatever their
-/// numbers.
+/// A cart model: its voltage gain and the terms that are present, with their numbers (contract:
+/// vocabulary.hpp). A term is present once it is added or one of its parameters is set; absent terms have no
+/// effect whatever their numbers.
 class Model {
  public:
   Model();
-  explicit Model(double voltage_gain_m_per_s2_V) : Model() { set(Parameter::voltage_gain, voltage_gain_m_per_s2_V); }
+  explicit Model(double voltage_gain_m_per_s2_V) : Model() {
+    set(Parameter::voltage_gain, voltage_gain_m_per_s2_V);
+  }
 
   bool has(Term term) const { return present_[static_cast<std::size_t>(term)]; }
   void add(Term term) { present_[static_cast<std::size_t>(term)] = true; }

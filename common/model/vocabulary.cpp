@@ -15,15 +15,18 @@ constexpr std::array<TermInfo, kTermCount> kTerms{{
     {T::viscous_friction, "viscous_friction", "c v, back-EMF included"},
     {T::coulomb_friction, "coulomb_friction", "level sgn v; holds the cart still up to this level"},
     {T::exponential_damping, "exponential_damping", "(alpha1 exp(-alpha2 |v|) + gamma) v"},
-    {T::stribeck_friction, "stribeck_friction", "extra friction at low speed, excess exp(-(v/speed)^2) sgn v"},
+    {T::stribeck_friction, "stribeck_friction",
+     "extra friction at low speed, excess exp(-(v/speed)^2) sgn v"},
     {T::constant_force, "constant_force",
-     "added push, positive towards +y: track tilt, amplifier offset and Coulomb asymmetry are one and the same"},
+     "added push, positive towards +y: track tilt, amplifier offset and Coulomb asymmetry are one and the "
+     "same"},
     {T::asymmetric_viscous_friction, "asymmetric_viscous_friction",
      "viscous coefficient differs between directions: c (1 + d/2 sgn v)"},
     {T::position_dependent_friction, "position_dependent_friction",
      "extra Coulomb level, a Gaussian spot on the rail: peak exp(-((y - centre)/width)^2 / 2)"},
     {T::cogging, "cogging", "periodic push in position: amplitude sin(2 pi y/period + phase)"},
-    {T::backlash, "backlash", "total lost motion between motor and cart, encoder on the cart; impacts are inelastic"},
+    {T::backlash, "backlash",
+     "total lost motion between motor and cart, encoder on the cart; impacts are inelastic"},
     {T::input_dead_zone, "input_dead_zone", "command inside it gives nothing; outside, shifted by it"},
     {T::voltage_saturation, "voltage_saturation", "the amplifier really delivers no more than this"},
     {T::current_limit, "current_limit", "drive less back-EMF, beta u - c v, is held within +-limit"},
@@ -57,12 +60,19 @@ constexpr std::array<ParameterInfo, kParameterCount> kParameters{{
     {P::asymmetric_viscous_difference, T::asymmetric_viscous_friction, "relative_difference", -2, 2, {}, "d"},
     {P::spot_peak, T::position_dependent_friction, "peak_m_per_s2", 0, kInf, {}, "extra level at the centre"},
     {P::spot_centre, T::position_dependent_friction, "centre_m", -kInf, kInf, {}, "where on the rail"},
-    {P::spot_width, T::position_dependent_friction, "width_m", kTiny, kInf, {}, "standard deviation of the spot"},
+    {P::spot_width,
+     T::position_dependent_friction,
+     "width_m",
+     kTiny,
+     kInf,
+     {},
+     "standard deviation of the spot"},
     {P::cogging_amplitude, T::cogging, "amplitude_m_per_s2", 0, kInf, {}, "amplitude"},
     {P::cogging_period, T::cogging, "period_m", kTiny, kInf, {}, "period"},
     {P::cogging_phase, T::cogging, "phase_rad", -kInf, kInf, {}, "phase at y = 0"},
     {P::backlash_gap, T::backlash, "gap_m", 0, kInf, {}, "total lost motion"},
-    {P::backlash_load_share, T::backlash, "load_share", 0.01, 0.99, 0.5, "share of the mass on the cart side"},
+    {P::backlash_load_share, T::backlash, "load_share", 0.01, 0.99, 0.5,
+     "share of the mass on the cart side"},
     {P::backlash_load_friction_share, T::backlash, "load_friction_share", 0, 1, 0.5,
      "share of the friction levels on the cart side"},
     {P::backlash_load_damping_share, T::backlash, "load_damping_share", 0, 1, 0.5,
@@ -75,10 +85,20 @@ constexpr std::array<ParameterInfo, kParameterCount> kParameters{{
     {P::spring_stiffness, T::cable_spring, "stiffness_per_s2", -kInf, kInf, {}, "k"},
     {P::spring_neutral, T::cable_spring, "neutral_m", -kInf, kInf, {}, "position without pull"},
     {P::drag_coefficient, T::quadratic_drag, "coefficient_per_m", 0, kInf, {}, "coefficient"},
-    {P::coupling_resonance, T::flexible_coupling, "resonance_hz", 0.1, 1000, {},
+    {P::coupling_resonance,
+     T::flexible_coupling,
+     "resonance_hz",
+     0.1,
+     1000,
+     {},
      "resonance with both masses free"},
     {P::coupling_damping_ratio, T::flexible_coupling, "damping_ratio", 0, 10, {}, "of that resonance"},
-    {P::coupling_load_share, T::flexible_coupling, "load_share", 0.01, 0.99, {},
+    {P::coupling_load_share,
+     T::flexible_coupling,
+     "load_share",
+     0.01,
+     0.99,
+     {},
      "share of the mass on the encoder side"},
     {P::coupling_load_friction_share, T::flexible_coupling, "load_friction_share", 0, 1, 0.5,
      "share of the friction levels on the encoder side"},
@@ -92,7 +112,13 @@ constexpr std::array<ParameterInfo, kParameterCount> kParameters{{
     {P::missed_burst, T::encoder_missed_counts, "burst_counts", 0, kInf, {}, "counts lost in a burst"},
     {P::missed_rate, T::encoder_missed_counts, "rate_per_s", 0, kInf, {}, "bursts per second while fast"},
     {P::missed_speed, T::encoder_missed_counts, "speed_m_per_s", 0, kInf, {}, "speed above which it happens"},
-    {P::presliding_stiffness, T::presliding_friction, "stiffness_per_s2", kTiny, kInf, {}, "bristle stiffness"},
+    {P::presliding_stiffness,
+     T::presliding_friction,
+     "stiffness_per_s2",
+     kTiny,
+     kInf,
+     {},
+     "bristle stiffness"},
     {P::disturbance_start, T::external_disturbance, "start_s", -kInf, kInf, {}, "start, on the file's time"},
     {P::disturbance_duration, T::external_disturbance, "duration_s", kTiny, kInf, {}, "duration"},
     {P::disturbance_peak, T::external_disturbance, "peak_m_per_s2", -kInf, kInf, {}, "greatest push"},
@@ -112,11 +138,19 @@ static_assert(in_order(), "the tables stand in the order of the enumerations");
 
 }  // namespace
 
-std::span<const TermInfo, kTermCount> terms() { return kTerms; }
-std::span<const ParameterInfo, kParameterCount> parameters() { return kParameters; }
+std::span<const TermInfo, kTermCount> terms() {
+  return kTerms;
+}
+std::span<const ParameterInfo, kParameterCount> parameters() {
+  return kParameters;
+}
 
-const TermInfo& info(Term term) { return kTerms[static_cast<std::size_t>(term)]; }
-const ParameterInfo& info(Parameter parameter) { return kParameters[static_cast<std::size_t>(parameter)]; }
+const TermInfo& info(Term term) {
+  return kTerms[static_cast<std::size_t>(term)];
+}
+const ParameterInfo& info(Parameter parameter) {
+  return kParameters[static_cast<std::size_t>(parameter)];
+}
 
 std::span<const ParameterInfo> parameters_of(Term term) {
   std::size_t first = 0;

@@ -8,8 +8,8 @@
 
 namespace cartwright {
 
-/// The physics a cart model can hold besides its voltage gain. Every term is an acceleration (force divided by the
-/// moving mass) in  d2y/dt2 = beta u - sum(opposing terms) + sum(pushes).
+/// The physics a cart model can hold besides its voltage gain. Every term is an acceleration (force divided
+/// by the moving mass) in  d2y/dt2 = beta u - sum(opposing terms) + sum(pushes).
 enum class Term {
   viscous_friction,
   coulomb_friction,
@@ -90,10 +90,10 @@ inline constexpr std::size_t kParameterCount = 46;
 
 struct ParameterInfo {
   Parameter id;
-  std::optional<Term> term;           ///< none for the voltage gain, which every model has
-  std::string_view key;               ///< name in the model file, unit last
-  double lower;                       ///< least value a model may hold
-  double upper;                       ///< greatest value a model may hold
+  std::optional<Term> term;             ///< none for the voltage gain, which every model has
+  std::string_view key;                 ///< name in the model file, unit last
+  double lower;                         ///< least value a model may hold
+  double upper;                         ///< greatest value a model may hold
   std::optional<double> default_value;  ///< set where the file may leave the parameter out
   std::string_view meaning;
 };

@@ -1,0 +1,54 @@
+#pragma once
+
+// What the two integrators share. Only plant_*.cpp include this.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/model/plant.hpp"
+
+namespace cartwright {
+
+/// Events (stick, slip, breakaway, contact) located inside one inner step; after these the rest is taken as
+/// it comes.
+inline constexpr int kEventsPerStep = 16;
+/// An event moves time on by at least this much.
+inline constexpr double kLeastAdvance_s = 1e-12;
+
+/// The fraction of a step at which a quantity changes sign, by a straight line; 1 where it does not.
+inline double sign_change(double p0, double p1) noexcept {
+  return p0 * p1 < 0 ? p0 / (p0 - p1) : 1.0;
+}
+
+struct BristleMode {
+  double deflection_m;
+  bool elastic;  ///< else it slides at its greatest deflection
+};
+
+/// `most_m` is the deflection that carries the friction level at this speed: a bristle slides where it moves
+/// outwards with at least that, and unloads elastically whenever it moves back. `net` gives the net force
+/// without friction in units of deflection, asked for only at a standstill.
+template <typename Net>
+BristleMode bristle_mode(double deflection_m, double velocity, double most_m, const Net& net) noexcept {
+  if (most_m <= 0) return {0, false};
+  if (std::abs(deflection_m) < most_m * (1 - 1e-9)) return {deflection_m, true};
+  const double side = sign_of(deflection_m);
+  const bool slides = velocity != 0 ? velocity * side > 0 : side * net() > most_m;
+  return slides ? BristleMode{side * most_m, false} : BristleMode{deflection_m, true};
+}
+
+/// How long a mass at rest stays there, at most `duration_s`: just past the moment at which `moves(time,
+/// drive)` turns true.
+template <typename Moves>
+double Plant::release_s(double duration_s, const Moves& moves) const noexcept {
+  const auto moves_after = [&](double h) { return moves(state_.time_s + h, drive(h).end); };
+  if (!terms_.varies_in_time || !moves_after(duration_s)) return duration_s;
+  double low = 0, high = duration_s;
+  for (int i = 0; i < 50 && high - low > kLeastAdvance_s; ++i) {
+    const double middle = 0.5 * (low + high);
+    (moves_after(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+}  // namespace cartwright

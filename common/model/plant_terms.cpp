@@ -1,0 +1,107 @@
+#include "common/model/plant_terms.hpp"
+
+#include <limits>
+
+namespace cartwright {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Inner steps resolve the fastest rate w of a model to w h = 0.15: the Runge-Kutta method's local error is
+/// then (w h)^5/120 < 1e-6 of the amplitude.
+constexpr double kStepTimesRate = 0.15;
+/// Keeps the cost of a very stiff model bounded. Rates up to 2.7/20 us are still stable.
+constexpr double kLeastStep_s = 2e-5;
+
+/// Fastest rate [rad/s] at which a model moves by itself.
+double fastest_rate(const Model& m, const PlantTerms& p) {
+  double w = p.viscous * (1 + 0.5 * std::abs(p.viscous_difference)) + p.alpha1 + p.gamma;
+  const auto oscillates = [&w](double stiffness) { w = std::max(w, std::sqrt(std::abs(stiffness))); };
+  oscillates(p.spring);
+  oscillates(p.cogging_amplitude * p.cogging_wavenumber);
+  if (p.stribeck_excess > 0) w = std::max(w, p.stribeck_excess * p.stribeck_inverse_speed);
+  if (p.has_bristle) oscillates(p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
+  if (m.has(Term::flexible_coupling)) {
+    const double resonance = kTwoPi * m[Parameter::coupling_resonance];
+    w = std::max(w, resonance * std::max(1.0, 2 * m[Parameter::coupling_damping_ratio]));
+  }
+  return w;
+}
+
+}  // namespace
+
+PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
+  const auto value = [&m](Term term, Parameter parameter, double absent) {
+    return m.has(term) ? m[parameter] : absent;
+  };
+  beta = m[Parameter::voltage_gain];
+  viscous = value(Term::viscous_friction, Parameter::viscous_coefficient, 0);
+  viscous_difference = value(Term::asymmetric_viscous_friction, Parameter::asymmetric_viscous_difference, 0);
+  drag = value(Term::quadratic_drag, Parameter::drag_coefficient, 0);
+  alpha1 = value(Term::exponential_damping, Parameter::exponential_alpha1, 0);
+  alpha2 = value(Term::exponential_damping, Parameter::exponential_alpha2, 0);
+  gamma = value(Term::exponential_damping, Parameter::exponential_gamma, 0);
+  coulomb = value(Term::coulomb_friction, Parameter::coulomb_level, 0);
+  stribeck_excess = value(Term::stribeck_friction, Parameter::stribeck_excess, 0);
+  stribeck_inverse_speed = 1 / value(Term::stribeck_friction, Parameter::stribeck_speed, 1);
+  spot_peak = value(Term::position_dependent_friction, Parameter::spot_peak, 0);
+  spot_centre = value(Term::position_dependent_friction, Parameter::spot_centre, 0);
+  spot_inverse_width = 1 / value(Term::position_dependent_friction, Parameter::spot_width, 1);
+  constant = value(Term::constant_force, Parameter::constant_acceleration, 0);
+  cogging_amplitude = value(Term::cogging, Parameter::cogging_amplitude, 0);
+  cogging_wavenumber = kTwoPi / value(Term::cogging, Parameter::cogging_period, 1);
+  cogging_phase = value(Term::cogging, Parameter::cogging_phase, 0);
+  spring = value(Term::cable_spring, Parameter::spring_stiffness, 0);
+  spring_neutral = value(Term::cable_spring, Parameter::spring_neutral, 0);
+  disturbance_start = value(Term::external_disturbance, Parameter::disturbance_start, 0);
+  disturbance_duration = value(Term::external_disturbance, Parameter::disturbance_duration, 1);
+  disturbance_peak = value(Term::external_disturbance, Parameter::disturbance_peak, 0);
+  dead_zone = value(Term::input_dead_zone, Parameter::dead_zone_half_width, 0);
+  saturation = value(Term::voltage_saturation, Parameter::saturation_limit, kInfinity);
+  gain_difference = value(Term::amplifier_gain_asymmetry, Parameter::amplifier_gain_difference, 0);
+  current_limit = value(Term::current_limit, Parameter::current_limit, kInfinity);
+  const double lag_s = value(Term::armature_lag, Parameter::armature_time_constant, 0);
+  lag_rate = lag_s > 0 ? 1 / lag_s : 0;
+  delay = value(Term::transport_delay, Parameter::transport_delay, 0);
+  heating_loss = value(Term::motor_heating, Parameter::heating_gain_loss, 0);
+  heating_rate = 1 / value(Term::motor_heating, Parameter::heating_time_constant, 1);
+  bristle_stiffness = value(Term::presliding_friction, Parameter::presliding_stiffness, 0);
+  gap = value(Term::backlash, Parameter::backlash_gap, 0);
+
+  const bool flexible = m.has(Term::flexible_coupling);
+  load_share = m[flexible ? Parameter::coupling_load_share : Parameter::backlash_load_share];
+  load_friction_share =
+      m[flexible ? Parameter::coupling_load_friction_share : Parameter::backlash_load_friction_share];
+  load_damping_share =
+      m[flexible ? Parameter::coupling_load_damping_share : Parameter::backlash_load_damping_share];
+  coupling_stiffness = coupling_damping = 0;
+  if (flexible) {
+    // Relative motion x = x_motor - x_load of two free masses: x'' = -k x (1/s + 1/(1 - s)) = -w^2 x.
+    const double w = kTwoPi * m[Parameter::coupling_resonance];
+    const double reduced = load_share * (1 - load_share);
+    coupling_stiffness = w * w * reduced;
+    coupling_damping = 2 * m[Parameter::coupling_damping_ratio] * w * reduced;
+  }
+
+  has_level_shape = stribeck_excess != 0 || spot_peak != 0;
+  has_exponential = m.has(Term::exponential_damping);
+  has_cogging = cogging_amplitude != 0;
+  has_disturbance = disturbance_active && disturbance_peak != 0;
+  has_current_limit = m.has(Term::current_limit);
+  has_lag = lag_s > 0;
+  has_delay = delay > 0;
+  has_heating = heating_loss != 0;
+  has_bristle = bristle_stiffness > 0 && (coulomb > 0 || has_level_shape);
+  two_masses = flexible || gap > 0;
+  rigid_backlash = !flexible && gap > 0;
+  varies_in_time = has_lag || has_heating || has_disturbance;
+  breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
+  linear = !(two_masses || varies_in_time || has_level_shape || has_exponential || has_cogging ||
+             has_current_limit || has_bristle || spring != 0 || drag != 0);
+
+  const double rate = fastest_rate(m, *this);
+  longest_step_s = rate > 0 ? std::max(kStepTimesRate / rate, kLeastStep_s) : kInfinity;
+  if (has_lag) longest_step_s = std::min(longest_step_s, std::max(lag_s, kLeastStep_s));
+}
+
+}  // namespace cartwright

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/model/model.hpp"
+
+namespace cartwright {
+
+inline double sign_of(double value) noexcept {
+  return value > 0 ? 1.0 : (value < 0 ? -1.0 : 0.0);
+}
+
+/// The terms of a model as accelerations [m/s^2], unpacked once so that an integrator pays only for what is
+/// present: absent terms hold neutral values, flags skip what costs time. What each term means:
+/// vocabulary.hpp.
+struct PlantTerms {
+  PlantTerms(const Model& model, bool disturbance_active);
+
+  double beta, viscous, viscous_difference, drag;
+  double alpha1, alpha2, gamma;
+  double coulomb, stribeck_excess, stribeck_inverse_speed;
+  double spot_peak, spot_centre, spot_inverse_width;
+  double constant, cogging_amplitude, cogging_wavenumber, cogging_phase;
+  double spring, spring_neutral;
+  double disturbance_start, disturbance_duration, disturbance_peak;
+  double dead_zone, saturation, gain_difference, current_limit;
+  double lag_rate, delay, heating_loss, heating_rate;
+  double bristle_stiffness;
+  double gap, coupling_stiffness, coupling_damping;
+  double load_share, load_friction_share, load_damping_share;
+
+  bool has_level_shape, has_exponential, has_cogging, has_disturbance, has_current_limit, has_lag, has_delay,
+      has_heating, has_bristle;
+  bool two_masses, rigid_backlash;
+  bool varies_in_time;  ///< net force at a standstill changes while a command is held
+  bool breaks_at_rest;  ///< the force, or its slope, jumps where the velocity changes sign
+  bool linear;  ///< one mass with viscous and Coulomb friction and a constant push: solved in closed form
+  double longest_step_s;  ///< resolves the fastest of the model's own motions
+
+  /// Dead zone, saturation and gain asymmetry: what the amplifier makes of a command.
+  double amplifier(double command_V) const noexcept {
+    double u = command_V;
+    if (dead_zone > 0) u = std::abs(u) <= dead_zone ? 0.0 : u - std::copysign(dead_zone, u);
+    u = std::clamp(u, -saturation, saturation);
+    return u * (1 + 0.5 * gain_difference * sign_of(u));
+  }
+
+  double damping(double v) const noexcept {
+    const double speed = std::abs(v);
+    double a = (drag * speed + viscous * (1 + 0.5 * viscous_difference * sign_of(v))) * v;
+    if (has_exponential) a += (alpha1 * std::exp(-alpha2 * speed) + gamma) * v;
+    return a;
+  }
+
+  /// Drive less a share of the damping. The current limit holds drive less back-EMF, beta u - c v; back-EMF
+  /// is then the motor's alone.
+  double driven(double drive, double v, double damping_share) const noexcept {
+    if (!has_current_limit) return drive - damping_share * damping(v);
+    const double back_emf = viscous * v;
+    return std::clamp(drive - back_emf, -current_limit, current_limit) -
+           damping_share * (damping(v) - back_emf);
+  }
+
+  /// By how much drive less back-EMF is beyond the current limit: the force has a corner where this changes
+  /// sign.
+  double over_current(double drive, double v) const noexcept {
+    return std::abs(drive - viscous * v) - current_limit;
+  }
+
+  /// Damping of a second mass that carries a share of it.
+  double load_damping(double v) const noexcept {
+    return load_damping_share * (has_current_limit ? damping(v) - viscous * v : damping(v));
+  }
+
+  /// Level of friction: what opposes motion, and what it takes to start.
+  double level(double y, double v) const noexcept {
+    double a = coulomb;
+    if (!has_level_shape) return a;
+    if (stribeck_excess != 0) {
+      const double x = v * stribeck_inverse_speed;
+      a += stribeck_excess * std::exp(-x * x);
+    }
+    if (spot_peak != 0) {
+      const double x = (y - spot_centre) * spot_inverse_width;
+      a += spot_peak * std::exp(-0.5 * x * x);
+    }
+    return a;
+  }
+
+  double pushes(double y, double time_s) const noexcept {
+    double a = constant - spring * (y - spring_neutral);
+    if (has_cogging) a += cogging_amplitude * std::sin(cogging_wavenumber * y + cogging_phase);
+    if (has_disturbance) {
+      const double x = (time_s - disturbance_start) / disturbance_duration;
+      if (x > 0 && x < 1) a += disturbance_peak * std::sin(std::numbers::pi * x);
+    }
+    return a;
+  }
+};
+
+}  // namespace cartwright

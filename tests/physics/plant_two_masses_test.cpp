@@ -1,0 +1,172 @@
+// Backlash and flexible coupling: two masses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/physics/plant_runs.hpp"
+
+namespace cartwright {
+namespace {
+
+using test::plant_at;
+using test::run;
+using P = Parameter;
+
+TEST(Backlash, LostMotionOfASlowReversalEqualsTheGap) {
+  const double gap = 1e-3;
+  Model model =
+      Model(1.0).set(P::viscous_coefficient, 10).set(P::coulomb_level, 0.5).set(P::backlash_gap, gap);
+  Plant plant = plant_at(model, 0);
+  run(plant, 0.7, 1);  // creep against one flank
+  EXPECT_EQ(plant.state().contact, 1);
+  EXPECT_NEAR(plant.state().motor_position_m - plant.state().position_m, gap / 2, 1e-12);
+  run(plant, 0, 1);
+  const PlantState turn = plant.state();
+  ASSERT_EQ(turn.velocity_m_per_s, 0.0);
+  // The motor alone breaks away at its share of friction; the cart stays where it is until the gap is
+  // crossed.
+  while (plant.state().position_m == turn.position_m) plant.advance(-0.6, 1e-4);
+  EXPECT_NEAR(turn.motor_position_m - plant.state().motor_position_m, gap, 2e-5);
+  EXPECT_EQ(plant.state().contact, -1);
+}
+
+TEST(Backlash, ImpactConservesMomentumAndNeverGainsEnergy) {
+  const double share = 0.3, gap = 2e-3, v0 = 0.5;
+  Model model = Model(1.0).set(P::backlash_gap, gap).set(P::backlash_load_share, share);
+  Plant plant(model);
+  PlantState state;
+  state.motor_velocity_m_per_s = v0;
+  plant.reset(state);
+  run(plant, 0, 0.1);
+  EXPECT_EQ(plant.state().contact, 1);
+  EXPECT_NEAR(plant.state().velocity_m_per_s, (1 - share) * v0, 1e-12);
+  EXPECT_EQ(plant.state().velocity_m_per_s, plant.state().motor_velocity_m_per_s);
+}
+
+TEST(Backlash, TheMotorStaysWithinTheGapWhateverHappens) {
+  const double gap = 5e-4;
+  Model model =
+      Model(1.9).set(P::viscous_coefficient, 4).set(P::coulomb_level, 0.6).set(P::backlash_gap, gap);
+  Plant plant = plant_at(model, 0);
+  for (int tick = 0; tick < 20000; ++tick) {
+    const double u = 3 * std::sin(0.011 * tick) + 4 * std::sin(0.23 * tick) + (tick % 37 < 18 ? 2 : -2);
+    plant.advance(u, 1e-3);
+    const double stretch = plant.state().motor_position_m - plant.state().position_m;
+    ASSERT_LE(std::abs(stretch), 0.5 * gap * (1 + 1e-9)) << tick;
+  }
+}
+
+TEST(Backlash, WithoutReversalsIsOneMass) {
+  const Model one = Model(1.9).set(P::viscous_coefficient, 4).set(P::coulomb_level, 0.6);
+  Plant single = plant_at(one, 0, 0.1), geared(Model(one).set(P::backlash_gap, 5e-4));
+  PlantState state;
+  state.velocity_m_per_s = state.motor_velocity_m_per_s = 0.1;
+  state.contact = 1;
+  geared.reset(state);
+  for (int tick = 0; tick < 2000; ++tick) {
+    const double u = 3 + 2 * std::sin(0.01 * tick);
+    single.advance(u, 1e-3);
+    geared.advance(u, 1e-3);
+    ASSERT_NEAR(single.state().position_m, geared.state().position_m, 1e-9);
+  }
+}
+
+TEST(Backlash, ACartWithoutFrictionFliesOnWhenTheMotorBrakes) {
+  Model model = Model(1.0).set(P::coulomb_level, 0.5).set(P::backlash_gap, 1.0);
+  model.set(P::backlash_load_friction_share, 0);
+  Plant plant(model);
+  PlantState state;
+  state.velocity_m_per_s = state.motor_velocity_m_per_s = 0.2;
+  state.contact = 1;
+  plant.reset(state);
+  run(plant, 0, 1);
+  EXPECT_NEAR(plant.state().velocity_m_per_s, 0.2, 1e-12);  // no force on it
+  EXPECT_EQ(plant.state().motor_velocity_m_per_s, 0.0);     // stopped by its own friction
+}
+
+TEST(FlexibleCoupling, SwingsAtItsResonanceWithTheCentreOfMassAtRest) {
+  const double hz = 25, share = 0.3;
+  Model model = Model(1.0).set(P::coupling_resonance, hz).set(P::coupling_damping_ratio, 0);
+  model.set(P::coupling_load_share, share);
+  Plant plant(model);
+  PlantState state;
+  state.motor_position_m = 1e-3;
+  plant.reset(state);
+  for (int half = 1; half <= 20; ++half) {
+    plant.advance(0, 0.5 / hz);
+    const PlantState& s = plant.state();
+    EXPECT_NEAR(s.motor_position_m - s.position_m, half % 2 == 0 ? 1e-3 : -1e-3, 1e-7);
+    EXPECT_NEAR(share * s.position_m + (1 - share) * s.motor_position_m, (1 - share) * 1e-3, 1e-12);
+  }
+}
+
+TEST(FlexibleCoupling, DampingRatioIsTheLogarithmicDecrement) {
+  const double hz = 25, ratio = 0.05;
+  Model model = Model(1.0).set(P::coupling_resonance, hz).set(P::coupling_damping_ratio, ratio);
+  model.set(P::coupling_load_share, 0.5);
+  Plant plant(model);
+  PlantState state;
+  state.motor_position_m = 1e-3;
+  plant.reset(state);
+  const double damped_s = 1 / (hz * std::sqrt(1 - ratio * ratio));
+  plant.advance(0, 10 * damped_s);
+  const double left = (plant.state().motor_position_m - plant.state().position_m) / 1e-3;
+  EXPECT_NEAR(-std::log(left) / 10, 2 * std::numbers::pi * ratio / std::sqrt(1 - ratio * ratio), 1e-4);
+}
+
+TEST(FlexibleCoupling, BecomesRigidAsItsResonanceGrows) {
+  const Model rigid = Model(1.9).set(P::viscous_coefficient, 4).set(P::coulomb_level, 0.3);
+  const auto deviation = [&](double hz) {
+    Model model = Model(rigid).set(P::coupling_resonance, hz).set(P::coupling_damping_ratio, 0.3);
+    model.set(P::coupling_load_share, 0.4);
+    Plant one = plant_at(rigid, 0), two = plant_at(model, 0);
+    double worst = 0;
+    for (int tick = 0; tick < 2000; ++tick) {
+      const double u = 3 + 2 * std::sin(0.02 * tick);  // no reversal: nothing sticks
+      one.advance(u, 1e-3);
+      two.advance(u, 1e-3);
+      worst = std::max(worst, std::abs(one.state().position_m - two.state().position_m));
+    }
+    return worst;
+  };
+  const double soft = deviation(10), middle = deviation(40), stiff = deviation(160);
+  EXPECT_LT(middle, soft / 4);
+  EXPECT_LT(stiff, middle / 4);
+  EXPECT_LT(deviation(640), 1e-6);
+}
+
+TEST(FlexibleCoupling, EachMassSticksByItself) {
+  // The motor is held by its friction while the load swings freely against it: the load's own frequency.
+  const double hz = 20, share = 0.5;
+  Model model = Model(1.0).set(P::coulomb_level, 5).set(P::coupling_resonance, hz);
+  model.set(P::coupling_damping_ratio, 0)
+      .set(P::coupling_load_share, share)
+      .set(P::coupling_load_friction_share, 0);
+  Plant plant(model);
+  PlantState state;
+  state.position_m = 1e-4;
+  plant.reset(state);
+  const double alone_hz = hz * std::sqrt(1 - share);
+  plant.advance(0, 10 / alone_hz);
+  EXPECT_NEAR(plant.state().position_m, 1e-4, 1e-8);
+  EXPECT_EQ(plant.state().motor_position_m, 0.0);
+}
+
+TEST(FlexibleCoupling, WithAGapIsFreeInsideIt) {
+  Model model = Model(1.0).set(P::coupling_resonance, 20).set(P::coupling_damping_ratio, 0.1);
+  model.set(P::coupling_load_share, 0.5).set(P::backlash_gap, 1e-2);
+  Plant plant(model);
+  PlantState state;
+  state.velocity_m_per_s = 0.1;
+  plant.reset(state);
+  run(plant, 0, 0.049);
+  EXPECT_EQ(plant.state().velocity_m_per_s, 0.1);
+  EXPECT_EQ(plant.state().motor_velocity_m_per_s, 0.0);
+  run(plant, 0, 0.5);
+  EXPECT_NEAR(0.5 * (plant.state().velocity_m_per_s + plant.state().motor_velocity_m_per_s), 0.05, 1e-12);
+}
+
+}  // namespace
+}  // namespace cartwright
