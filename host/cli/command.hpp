@@ -35,5 +35,6 @@ void add_import(CLI::App& app, int& exit_status);
 void add_export(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
+void add_sinefit(CLI::App& app, int& exit_status);
 
 }  // namespace cartwright::cli

@@ -1,0 +1,239 @@
+#include "host/relay/sine_intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "host/statistics/distributions.hpp"
+
+namespace cartwright {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kConfidence = 0.95;
+
+/// Mean of |sum e exp(-i w t)|^2/(sum e^2) over frequencies around `centre_hz`: 1 for white noise.
+double relative_density(const SineProblem& problem, const std::vector<double>& e, double centre_hz,
+                        double sine_hz, double& bins) {
+  const double record_s = 2 * problem.half_span_s();
+  const double highest_hz = 0.5 * static_cast<double>(problem.size() - 1) / record_s;
+  const std::size_t n = problem.size();
+  double power = 0;
+  for (const double value : e) power += value * value;
+  double sum = 0;
+  bins = 0;
+  std::vector<double> cycles(n), c(n), s(n);
+  for (int j = -8; j <= 8; ++j) {
+    const double f = centre_hz + j / record_s;
+    // The fit has emptied the bins at its own frequency and at zero.
+    if (f * record_s < 0.99 || f > highest_hz || std::abs(f - sine_hz) * record_s < 1.5) continue;
+    for (std::size_t i = 0; i < n; ++i) cycles[i] = f * problem.tau_s()[i];
+    cosine_and_sine_of_cycles(cycles.data(), n, c.data(), s.data());
+    double re = 0, im = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      re += e[i] * c[i];
+      im += e[i] * s[i];
+    }
+    sum += (re * re + im * im) / power;
+    ++bins;
+  }
+  return bins > 0 ? sum / bins : 1.0;
+}
+
+/// Whether the first lags of the autocorrelation stay within what white noise does (3.3 standard errors).
+bool looks_white(const std::vector<double>& e) {
+  constexpr std::size_t kLags = 4;
+  if (e.size() < 4 * kLags) return true;
+  double power = 0;
+  for (const double value : e) power += value * value;
+  const double limit = 3.3 * power / std::sqrt(static_cast<double>(e.size()));
+  for (std::size_t lag = 1; lag <= kLags; ++lag) {
+    double sums[4] = {0, 0, 0, 0};
+    std::size_t i = 0;
+    for (; i + lag + 4 <= e.size(); i += 4) {
+      for (std::size_t l = 0; l < 4; ++l) sums[l] += e[i + l] * e[i + l + lag];
+    }
+    if (std::abs(sums[0] + sums[1] + sums[2] + sums[3]) > limit) return false;
+  }
+  return true;
+}
+
+/// Covariance of the linear values alone, at a known frequency.
+Eigen::MatrixXd with_known_frequency(const Eigen::MatrixXd& covariance) {
+  const Eigen::Index last = covariance.rows() - 1;
+  Eigen::MatrixXd out = covariance;
+  out -= covariance.col(last) * covariance.row(last) / covariance(last, last);
+  out.row(last).setZero();
+  out.col(last).setZero();
+  return out;
+}
+
+double wrapped(double angle_rad) {
+  const double turned = std::remainder(angle_rad, kTwoPi);
+  return turned <= -kPi ? turned + kTwoPi : turned;
+}
+
+struct Polar {
+  double amplitude, phase_rad;             ///< of a sine, at t = 0
+  Eigen::VectorXd amplitude_by, phase_by;  ///< gradients with respect to (linear, 2 pi f half_span)
+};
+
+/// a cos + b sin at the middle of the record as A sin(k 2 pi f t + phase).
+Polar polar(const SineProblem& problem, const SineProblem::Point& point, Eigen::Index constants, int order) {
+  const Eigen::Index ia = constants + 2 * (order - 1), ib = ia + 1;
+  const double a = point.linear(ia), b = point.linear(ib);
+  Polar p;
+  p.amplitude = std::hypot(a, b);
+  p.phase_rad = wrapped(std::atan2(a, b) - kTwoPi * order * point.frequency_hz * problem.centre_s());
+  p.amplitude_by = p.phase_by = Eigen::VectorXd::Zero(point.covariance.rows());
+  if (p.amplitude > 0) {
+    p.amplitude_by(ia) = a / p.amplitude;
+    p.amplitude_by(ib) = b / p.amplitude;
+    p.phase_by(ia) = b / (p.amplitude * p.amplitude);
+    p.phase_by(ib) = -a / (p.amplitude * p.amplitude);
+  }
+  p.phase_by(point.covariance.rows() - 1) = -order * problem.centre_s() / problem.half_span_s();
+  return p;
+}
+
+double variance(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& by) {
+  return by.dot(covariance * by);
+}
+
+Estimate amplitude_estimate(double value, double half_width) {
+  return {value, std::max(0.0, value - half_width), value + half_width};
+}
+
+/// A phase known to worse than half a turn is not known at all.
+Estimate phase_estimate(double value, double half_width) {
+  return half_width < kPi ? Estimate::within(value, half_width) : Estimate{value};
+}
+
+void include(Estimate& estimate, double low, double high) {
+  estimate.low = std::min(estimate.low, low);
+  estimate.high = std::max(estimate.high, high);
+}
+
+}  // namespace
+
+NoiseColour noise_colour(const SineProblem& problem, const std::vector<double>& residual, double frequency_hz,
+                         double free_values) {
+  NoiseColour colour;
+  colour.degrees = std::max(1.0, static_cast<double>(problem.size()) - free_values);
+  if (looks_white(residual)) return colour;
+  double bins = 0, bins_at_zero = 0;
+  colour.near_sine = std::max(1.0, relative_density(problem, residual, frequency_hz, frequency_hz, bins));
+  colour.near_zero = std::max(1.0, relative_density(problem, residual, 0, frequency_hz, bins_at_zero));
+  const double fewest = std::max(1.0, std::min(bins, bins_at_zero));
+  colour.degrees = std::min(colour.degrees, 2 * fewest);
+  return colour;
+}
+
+double quantisation_variance(std::span<const double> y, double amplitude, double residual_rms) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < y.size(); ++i) {
+    const double change = std::abs(y[i] - y[i - 1]);
+    if (change > 1e-9 * amplitude) step = std::min(step, change);
+  }
+  if (!std::isfinite(step) || residual_rms > 0.5 * step) return 0;
+  for (std::size_t i = 1; i < y.size(); ++i) {
+    const double steps = (y[i] - y[0]) / step;
+    if (std::abs(steps - std::round(steps)) > 0.01) return 0;
+  }
+  return step * step / 6 * std::min(1.0, step / amplitude);
+}
+
+void fill_estimates(const SineProblem& problem, const SineProblem::Point& point, bool with_trend,
+                    bool fixed_frequency, const NoiseColour& colour, double extra_variance, SineFit& fit) {
+  const Eigen::Index constants = with_trend ? 2 : 1;
+  const Eigen::Index last = point.covariance.rows() - 1;
+  const Eigen::MatrixXd covariance =
+      fixed_frequency ? with_known_frequency(point.covariance) : point.covariance;
+  double sum = 0;
+  for (const double value : fit.residual) sum += value * value;
+  const double n = static_cast<double>(problem.size());
+  const double free_values = static_cast<double>(fixed_frequency ? last : last + 1);
+  const double noise = sum / std::max(1.0, n - free_values);
+  const double t = student_t(kConfidence, colour.degrees);
+  const auto half_width = [&](double unit_variance, double factor, double extra) {
+    return t * std::sqrt(std::max(0.0, unit_variance) * noise * factor + extra);
+  };
+  fit.rms = std::sqrt(sum / n);
+  fit.middle_s = problem.centre_s();
+  fit.periods = point.frequency_hz * 2 * problem.half_span_s() * n / (n - 1);
+  fit.offset = Estimate::within(problem.mean() + point.linear(0),
+                                half_width(covariance(0, 0), colour.near_zero, 0.5 * extra_variance));
+  if (with_trend) {
+    fit.trend_per_s =
+        Estimate::within(point.linear(1) / problem.half_span_s(),
+                         half_width(covariance(1, 1), colour.near_zero, 0) / problem.half_span_s());
+  }
+  const double to_hz = 1 / (kTwoPi * problem.half_span_s());
+  fit.frequency_hz = fixed_frequency
+                         ? Estimate{point.frequency_hz}
+                         : Estimate::within(point.frequency_hz,
+                                            to_hz * half_width(covariance(last, last), colour.near_sine, 0));
+  fit.harmonics.clear();
+  for (int order = 1; order <= problem.harmonics(); ++order) {
+    const Polar p = polar(problem, point, constants, order);
+    const Estimate amplitude = amplitude_estimate(
+        p.amplitude, half_width(variance(covariance, p.amplitude_by), colour.near_sine, extra_variance));
+    const Estimate phase =
+        phase_estimate(p.phase_rad, half_width(variance(covariance, p.phase_by), colour.near_sine,
+                                               extra_variance / std::max(p.amplitude * p.amplitude, 1e-300)));
+    if (order == 1) {
+      fit.amplitude = amplitude;
+      fit.phase_rad = phase;
+    } else {
+      fit.harmonics.push_back({order, amplitude, phase});
+    }
+  }
+}
+
+double widen_to_profile(const SineProblem& problem, const SineProblem::Point& best, bool with_trend,
+                        const NoiseColour& colour, double highest_hz, SineFit& fit) {
+  const Eigen::Index constants = with_trend ? 2 : 1;
+  const double n = static_cast<double>(problem.size());
+  const double free_values = static_cast<double>(best.covariance.rows());
+  const double noise = best.cost / std::max(1.0, n - free_values);
+  const double t = student_t(kConfidence, colour.degrees);
+  const double allowance = t * t * noise * colour.near_sine;
+  const double record_s = 2 * problem.half_span_s();
+  const double half_width = 0.5 * (fit.frequency_hz.high - fit.frequency_hz.low);
+  std::vector<double> frequencies;
+  for (int i = -40; i <= 40; ++i) frequencies.push_back(best.frequency_hz + 0.1 * i * half_width);
+  for (int i = 4; i <= 100; ++i) frequencies.push_back(0.05 * i / record_s);
+  double lowest = best.frequency_hz;
+  for (const double f : frequencies) {
+    if (f * record_s < 0.2 || f > highest_hz) continue;
+    const SineProblem::Point point = problem.at(f, with_trend);
+    const double left = 1 - (point.cost - best.cost) / allowance;
+    if (!(left >= 0)) continue;
+    lowest = std::min(lowest, f);
+    include(fit.frequency_hz, f, f);
+    // What is left of the allowance is there for the linear values at this frequency.
+    const Eigen::MatrixXd covariance = with_known_frequency(point.covariance);
+    const auto reach = [&](const Eigen::VectorXd& by) {
+      return std::sqrt(std::max(0.0, variance(covariance, by)) * allowance * std::min(1.0, left));
+    };
+    const Polar p = polar(problem, point, constants, 1);
+    include(fit.amplitude, std::max(0.0, p.amplitude - reach(p.amplitude_by)),
+            p.amplitude + reach(p.amplitude_by));
+    if (fit.phase_rad.has_interval()) {
+      const double phase = fit.phase_rad.value + wrapped(p.phase_rad - fit.phase_rad.value);
+      include(fit.phase_rad, phase - reach(p.phase_by), phase + reach(p.phase_by));
+    }
+    const double offset = problem.mean() + point.linear(0);
+    const double offset_reach =
+        std::sqrt(std::max(0.0, covariance(0, 0)) * t * t * noise * colour.near_zero * std::min(1.0, left));
+    include(fit.offset, offset - offset_reach, offset + offset_reach);
+  }
+  if (fit.phase_rad.has_interval() && fit.phase_rad.high - fit.phase_rad.low >= kTwoPi) {
+    fit.phase_rad = Estimate{fit.phase_rad.value};
+  }
+  return lowest;
+}
+
+}  // namespace cartwright

@@ -1,0 +1,197 @@
+#include "host/relay/sine_problem.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "host/relay/vector_clones.hpp"
+
+namespace cartwright {
+namespace {
+
+constexpr std::size_t kBlock = 256;
+constexpr double kPi = std::numbers::pi;
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+/// Taylor coefficients of sin(pi r)/r and cos(pi r) in powers of r^2. |r| <= 1/2: eleven terms reach 2e-17.
+constexpr std::size_t kTerms = 11;
+constexpr std::array<double, kTerms> taylor(bool cosine) {
+  std::array<double, kTerms> out{};
+  double term = cosine ? 1 : kPi;
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    out[i] = term;
+    const double n = static_cast<double>(2 * i) + (cosine ? 1 : 2);
+    term *= -kPi * kPi / (n * (n + 1));
+  }
+  return out;
+}
+constexpr auto kSine = taylor(false);
+constexpr auto kCosine = taylor(true);
+
+/// Sum of a_i b_i in eight lanes, whatever the processor's vectors hold.
+CARTWRIGHT_VECTOR_CLONES double dot(const double* a, const double* b, std::size_t count) {
+  constexpr std::size_t kLanes = 8;
+  double lanes[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
+  }
+  for (; i < count; ++i) lanes[0] += a[i] * b[i];
+  return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
+void multiply(const double* a, const double* b, std::size_t count, double* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = a[i] * b[i];
+}
+
+void next_harmonic(const double* c1, const double* s1, const double* c, const double* s, std::size_t count,
+                   double* __restrict next_c, double* __restrict next_s) {
+  for (std::size_t i = 0; i < count; ++i) {
+    next_c[i] = c1[i] * c[i] - s1[i] * s[i];
+    next_s[i] = s1[i] * c[i] + c1[i] * s[i];
+  }
+}
+
+}  // namespace
+
+CARTWRIGHT_VECTOR_CLONES void cosine_and_sine_of_cycles(const double* cycles, std::size_t count,
+                                                        double* __restrict cosine, double* __restrict sine) {
+  // Adding and taking away 1.5 * 2^52 rounds to the nearest integer, in two additions that vectorise.
+  constexpr double kRounder = 6755399441055744.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double r = cycles[i] - ((cycles[i] + kRounder) - kRounder);
+    const double r2 = r * r;
+    double s = kSine[kTerms - 1], c = kCosine[kTerms - 1];
+    for (std::size_t k = kTerms - 1; k-- > 0;) {
+      s = s * r2 + kSine[k];
+      c = c * r2 + kCosine[k];
+    }
+    s *= r;
+    cosine[i] = 1 - 2 * s * s;
+    sine[i] = 2 * s * c;
+  }
+}
+
+SineProblem::SineProblem(std::span<const double> t_s, std::span<const double> y, int harmonics)
+    : harmonics_(harmonics), tau_s_(t_s.begin(), t_s.end()), x_(t_s.size()), y_(y.begin(), y.end()) {
+  centre_s_ = 0.5 * (t_s.front() + t_s.back());
+  half_span_s_ = 0.5 * (t_s.back() - t_s.front());
+  for (const double value : y_) mean_ += value;
+  mean_ /= static_cast<double>(y_.size());
+  base_.setZero();
+  const double scale = 1 / half_span_s_;
+  for (std::size_t i = 0; i < y_.size(); ++i) {
+    tau_s_[i] -= centre_s_;
+    x_[i] = tau_s_[i] * scale;
+    y_[i] -= mean_;
+    base_(0, 1) += x_[i];
+    base_(0, 2) += y_[i];
+    base_(1, 1) += x_[i] * x_[i];
+    base_(1, 2) += x_[i] * y_[i];
+    base_(2, 2) += y_[i] * y_[i];
+  }
+  base_(0, 0) = static_cast<double>(y_.size());
+  base_ = Eigen::Matrix3d(base_.selfadjointView<Eigen::Upper>());
+}
+
+/// Columns: 1, x, y, then for each harmonic cos, sin, x cos, x sin.
+Eigen::MatrixXd SineProblem::products(double frequency_hz) const {
+  const auto columns = static_cast<std::size_t>(3 + 4 * harmonics_);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(3 + 4 * harmonics_, 3 + 4 * harmonics_);
+  sums.topLeftCorner<3, 3>() = base_;
+  std::vector<double> storage(columns * kBlock, 0.0);
+  const auto column = [&storage](std::size_t i) { return storage.data() + i * kBlock; };
+  std::array<double, kBlock> cycles;
+  std::fill_n(column(0), kBlock, 1.0);
+  for (std::size_t begin = 0; begin < size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, size() - begin);
+    for (std::size_t i = 0; i < count; ++i) cycles[i] = frequency_hz * tau_s_[begin + i];
+    std::copy_n(x_.data() + begin, count, column(1));
+    std::copy_n(y_.data() + begin, count, column(2));
+    cosine_and_sine_of_cycles(cycles.data(), count, column(3), column(4));
+    for (std::size_t c = 3; c < columns; c += 4) {
+      if (c > 3)
+        next_harmonic(column(3), column(4), column(c - 4), column(c - 3), count, column(c), column(c + 1));
+      multiply(column(1), column(c), count, column(c + 2));
+      multiply(column(1), column(c + 1), count, column(c + 3));
+    }
+    for (std::size_t j = 3; j < columns; ++j) {
+      for (std::size_t i = 0; i <= j; ++i) {
+        sums(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += dot(column(i), column(j), count);
+      }
+    }
+  }
+  return sums.selfadjointView<Eigen::Upper>();
+}
+
+SineProblem::Point SineProblem::solve(double frequency_hz, const Eigen::MatrixXd& z, bool with_trend) const {
+  const Eigen::Index constants = with_trend ? 2 : 1;
+  const Eigen::Index linear = constants + 2 * harmonics_;
+  Eigen::VectorXi column(linear);
+  column(0) = 0;
+  if (with_trend) column(1) = 1;
+  for (int k = 0; k < harmonics_; ++k) {
+    column(constants + 2 * k) = 3 + 4 * k;
+    column(constants + 2 * k + 1) = 4 + 4 * k;
+  }
+  Eigen::MatrixXd normal(linear + 1, linear + 1);
+  Eigen::VectorXd right(linear);
+  for (Eigen::Index i = 0; i < linear; ++i) {
+    right(i) = z(column(i), 2);
+    for (Eigen::Index j = 0; j < linear; ++j) normal(i, j) = z(column(i), column(j));
+  }
+  Point point;
+  point.frequency_hz = frequency_hz;
+  point.linear = normal.topLeftCorner(linear, linear).ldlt().solve(right);
+  // Derivative with respect to 2 pi f half_span: sum of k x (b_k cos - a_k sin), a combination of the
+  // columns.
+  Eigen::VectorXd derivative = Eigen::VectorXd::Zero(z.cols());
+  for (int k = 0; k < harmonics_; ++k) {
+    derivative(5 + 4 * k) = (k + 1) * point.linear(constants + 2 * k + 1);
+    derivative(6 + 4 * k) = -(k + 1) * point.linear(constants + 2 * k);
+  }
+  Eigen::VectorXd model = Eigen::VectorXd::Zero(z.cols());
+  for (Eigen::Index i = 0; i < linear; ++i) model(column(i)) = point.linear(i);
+  const Eigen::VectorXd z_derivative = z * derivative;
+  for (Eigen::Index i = 0; i < linear; ++i) normal(i, linear) = normal(linear, i) = z_derivative(column(i));
+  normal(linear, linear) = derivative.dot(z_derivative);
+  model(2) = -1;  // model less measurement
+  const Eigen::VectorXd z_error = z * model;
+  point.cost = std::max(0.0, model.dot(z_error));
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(linear + 1);
+  gradient(linear) = -derivative.dot(z_error);
+  const auto factors = normal.ldlt();
+  point.covariance = factors.solve(Eigen::MatrixXd::Identity(linear + 1, linear + 1));
+  point.step_rad = point.covariance.row(linear).dot(gradient);
+  return point;
+}
+
+double SineProblem::cost_without_sine(bool with_trend) const {
+  const double n = base_(0, 0), sx = base_(0, 1), sy = base_(0, 2);
+  const double yy = base_(2, 2) - sy * sy / n;
+  if (!with_trend) return yy;
+  const double xx = base_(1, 1) - sx * sx / n, xy = base_(1, 2) - sx * sy / n;
+  return yy - xy * xy / xx;
+}
+
+std::vector<double> SineProblem::residual(const Point& point, bool with_trend) const {
+  const Eigen::Index constants = with_trend ? 2 : 1;
+  std::vector<double> cycles(size()), c(size()), s(size()), out(size());
+  for (std::size_t i = 0; i < size(); ++i) cycles[i] = point.frequency_hz * tau_s_[i];
+  cosine_and_sine_of_cycles(cycles.data(), size(), c.data(), s.data());
+  for (std::size_t i = 0; i < size(); ++i) {
+    double value = point.linear(0) + (with_trend ? point.linear(1) * x_[i] : 0);
+    double ck = 1, sk = 0;
+    for (int k = 0; k < harmonics_; ++k) {
+      const double next = ck * c[i] - sk * s[i];
+      sk = sk * c[i] + ck * s[i];
+      ck = next;
+      value += point.linear(constants + 2 * k) * ck + point.linear(constants + 2 * k + 1) * sk;
+    }
+    out[i] = y_[i] - value;
+  }
+  return out;
+}
+
+}  // namespace cartwright

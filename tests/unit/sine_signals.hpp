@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace cartwright::test {
+
+/// A sampled sine with everything a real record adds to it.
+struct SineSignal {
+  double amplitude = 1, frequency_hz = 1, phase_rad = 0, offset = 0;
+  double trend_per_s = 0, third_harmonic = 0;
+  double start_s = 0, period_s = 0.005, jitter_s = 0;
+  double noise = 0, noise_pole = 0;  ///< standard deviation; pole of a first-order colouring filter
+  double step = 0;                   ///< quantisation
+  int samples = 401;
+
+  struct Data {
+    std::vector<double> t_s, y;
+  };
+  template <typename Random>
+  Data draw(Random& random) const {
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> late(0, 1);
+    Data data;
+    double coloured = normal(random);
+    for (int i = 0; i < samples; ++i) {
+      const double t = start_s + period_s * i + jitter_s * late(random);
+      const double w = 2 * std::numbers::pi * frequency_hz;
+      coloured = noise_pole * coloured + std::sqrt(1 - noise_pole * noise_pole) * normal(random);
+      double y = offset + amplitude * std::sin(w * t + phase_rad) + trend_per_s * t +
+                 third_harmonic * std::sin(3 * (w * t + phase_rad)) + noise * coloured;
+      if (step > 0) y = step * std::round(y / step);
+      data.t_s.push_back(t);
+      data.y.push_back(y);
+    }
+    return data;
+  }
+};
+
+/// Difference of two angles in (-pi, pi].
+inline double angle_between(double a, double b) {
+  return std::remainder(a - b, 2 * std::numbers::pi);
+}
+
+}  // namespace cartwright::test
