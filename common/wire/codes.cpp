@@ -72,7 +72,7 @@ constexpr std::array<Entry, kCommandCount> kCommands{{
     {"arm", "disarmed to armed: switches the amplifier on, at zero volts"},
     {"disarm", "any state but faulted to disarmed"},
     {"stop", "ends the running experiment; the controller stays armed"},
-    {"reset", "leaves faulted for disarmed once the cause is gone; empties the log"},
+    {"reset", "leaves faulted for disarmed; fetch the log first, it goes on after this"},
     {"run", "armed to running, with the experiment set up in experiment_kind and its registers"},
     {"store_gains", "writes the staged gains into the inactive slot, then makes that slot the active one"},
     {"activate_gains", "makes slot command_argument (1 or 2) the active one"},

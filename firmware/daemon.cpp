@@ -1,0 +1,183 @@
+#include "firmware/daemon.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "firmware/gain_store.hpp"
+#include "firmware/modbus_server.hpp"
+#include "firmware/realtime.hpp"
+#include "firmware/session_writer.hpp"
+#include "hal/sim/simulated_cart.hpp"
+
+namespace cartwright::firmware {
+namespace {
+
+/// Ten minutes at 1 kHz.
+constexpr std::size_t kLogRows = 600'000;
+constexpr std::int64_t kIdleRest_ns = 2'000'000;
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void request_stop(int) {
+  stop_requested.store(true);
+}
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
+hal::sim::CartSetup cart_setup(const RigFile& rig) {
+  hal::sim::CartSetup setup;
+  setup.model = rig.model;
+  setup.encoder_resolution_m = rig.rig.encoder_resolution_m;
+  setup.amplifier_limit_V = rig.rig.voltage_limit_V;
+  setup.low_end_m = rig.rig.travel_m[0] - rig.end_stop_m;
+  setup.high_end_m = rig.rig.travel_m[1] + rig.end_stop_m;
+  setup.start_position_m = rig.start_position_m;
+  setup.seed = rig.seed;
+  return setup;
+}
+
+/// Everything a controller needs, put together from a rig file.
+struct Machine {
+  Machine(const RigFile& file, const PdGains* gains)
+      : cart(cart_setup(file)), exchange(kLogRows), controller(setup(file, gains), cart.devices(), exchange) {
+    if (file.virtual_time) {
+      pacer = std::make_unique<VirtualPacer>(kIdleRest_ns);
+    } else {
+      pacer = std::make_unique<RealPacer>();
+    }
+  }
+
+  static ControllerSetup setup(const RigFile& file, const PdGains* gains) {
+    ControllerSetup out = controller_setup(file);
+    if (gains) out.gains = *gains;
+    return out;
+  }
+
+  hal::sim::SimulatedCart cart;
+  Exchange exchange;
+  Telemetry telemetry;
+  Controller controller;
+  std::unique_ptr<Pacer> pacer;
+};
+
+std::int64_t period_ns(const RigFile& rig) {
+  return static_cast<std::int64_t>(1e9 * rig.rig.period_s() + 0.5);
+}
+
+Result<Settings> settings_from(const Options& options) {
+  Settings settings;
+  const auto kind = wire::find_experiment(options.once);
+  if (!kind) {
+    return failure(fmt::format(
+        "--once {}: no such experiment; they are step, relay, track, sweep, dither, hold, battery",
+        options.once));
+  }
+  settings.set(wire::Id::experiment_kind, static_cast<double>(*kind));
+  for (const std::string& entry : options.settings) {
+    const auto equals = entry.find('=');
+    const auto id = wire::find_register(entry.substr(0, equals));
+    if (equals == std::string::npos || !id || !wire::info(*id).writable()) {
+      return failure(
+          fmt::format("--set {}: NAME=VALUE is needed, with a writable register; see --registers", entry));
+    }
+    const wire::Register& r = wire::info(*id);
+    double value = 0;
+    const char* const end = entry.data() + entry.size();
+    const auto read = std::from_chars(entry.data() + equals + 1, end, value);
+    if (read.ec != std::errc{} || read.ptr != end || !(value >= r.least && value <= r.most)) {
+      return failure(fmt::format("--set {}: a number from {} to {} is needed", entry, r.least, r.most));
+    }
+    settings.set(*id, value);
+  }
+  return settings;
+}
+
+/// Does one command through the mailbox, as a host would.
+bool obey(Machine& machine, Loop& loop, Request request) {
+  request.sequence = static_cast<std::uint16_t>(machine.controller.status().ack_sequence + 1);
+  machine.exchange.requests.post(request);
+  while (!machine.exchange.requests.empty() && !stop_requested) loop.tick();
+  return machine.controller.status().ack == wire::Ack::done;
+}
+
+Result<int> record_once(const Options& options, const RigFile& rig, Machine& machine) {
+  if (options.out.empty()) return failure("--once needs --out DIR to write the recordings to");
+  const auto settings = settings_from(options);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto programme = prepare(*settings, rig);
+  if (!programme) return tl::unexpected(programme.error());
+  Loop loop(machine.controller, *machine.pacer, period_ns(rig), machine.telemetry);
+  loop.tick();
+  Request arm, go;
+  arm.command = wire::Command::arm;
+  go.command = wire::Command::run;
+  go.programme = *programme;
+  if (!obey(machine, loop, arm) || !obey(machine, loop, go)) {
+    return failure(fmt::format("cannot start: {}", sentence(machine.controller.status().present)));
+  }
+  while (machine.controller.state() == wire::State::running && !stop_requested) loop.tick();
+  const Status& status = machine.controller.status();
+  if (stop_requested) return failure("stopped before the experiment was over; nothing was written");
+  const auto written = write_session(rig, machine.exchange, options.out);
+  if (!written) return tl::unexpected(written.error());
+  std::fprintf(stderr, "cartwrightd: %u recordings in %s, %s\n", status.recordings, options.out.c_str(),
+               std::string(wire::words(status.outcome)).c_str());
+  if (status.state != wire::State::faulted) return 0;
+  std::fprintf(stderr, "cartwrightd: fault at %s\n", sentence(status).c_str());
+  return 1;
+}
+
+Result<int> serve(const RigFile& rig, Machine& machine, GainStore gains) {
+  auto server = ModbusServer::listen(
+      rig.listen, rig.port, RegisterFile(rig, machine.exchange, machine.telemetry, std::move(gains)));
+  if (!server) return tl::unexpected(server.error());
+  (*server)->start();
+  std::printf("cartwrightd: ready on %s:%d, %s cart, %g Hz, %s time\n", rig.listen.c_str(), (*server)->port(),
+              rig.kind.c_str(), rig.rig.sample_rate_hz, rig.virtual_time ? "virtual" : "real");
+  std::fflush(stdout);
+  Loop loop(machine.controller, *machine.pacer, period_ns(rig), machine.telemetry);
+  loop.run(stop_requested);
+  // The devices outlive the loop: leave them without voltage.
+  machine.cart.write({machine.pacer->now_ns(), period_ns(rig)}, {0, false});
+  return 0;
+}
+
+}  // namespace
+
+Result<int> run(const Options& options) {
+  if (options.rig_file.empty()) return failure("--rig FILE is needed; an example lies in firmware/examples");
+  auto rig = read_rig_file(options.rig_file);
+  if (!rig) return tl::unexpected(rig.error());
+  if (options.virtual_time) rig->virtual_time = true;
+  if (options.port >= 0) rig->port = options.port;
+  auto gains = GainStore::open(rig->gain_file);
+  if (!gains) return tl::unexpected(gains.error());
+  const PdGains* const active = gains->active() > 0 ? &gains->slot(gains->active())->gains : nullptr;
+  const auto machine = std::make_unique<Machine>(*rig, active);
+  catch_signals();
+  if (!options.once.empty()) return record_once(options, *rig, *machine);
+  if (rig->virtual_time) return serve(*rig, *machine, std::move(*gains));
+  Realtime realtime = prepare_process();
+  prepare_thread(realtime);
+  for (const std::string& line : realtime.missing) std::fprintf(stderr, "cartwrightd: %s\n", line.c_str());
+  if (rig->kind != "simulated" && rig->require_realtime && !realtime.sufficient()) {
+    return failure(
+        "a real cart is not driven without SCHED_FIFO and locked memory; mend the above or write "
+        "require_realtime = "
+        "false in [rig]");
+  }
+  return serve(*rig, *machine, std::move(*gains));
+}
+
+}  // namespace cartwright::firmware

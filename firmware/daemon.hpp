@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/result.hpp"
+
+namespace cartwright::firmware {
+
+/// What the command line asks for.
+struct Options {
+  std::string rig_file;
+  bool virtual_time = false;
+  int port = -1;  ///< -1: the rig file's
+  std::string once, out;
+  std::vector<std::string> settings;  ///< NAME=VALUE
+};
+
+/// Runs the controller: serves until SIGTERM or SIGINT, or makes the recordings of one experiment and leaves.
+/// Returns the exit status, or what made its input unusable.
+Result<int> run(const Options& options);
+
+}  // namespace cartwright::firmware

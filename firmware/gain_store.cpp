@@ -1,0 +1,107 @@
+#include "firmware/gain_store.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "common/files/files.hpp"
+#include "common/wire/codec.hpp"
+
+namespace cartwright::firmware {
+namespace {
+
+std::uint32_t checksum(std::string_view text) {
+  return wire::crc32(
+      std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+std::string line_of(int number, const GainSlot& slot) {
+  const std::string body = fmt::format(
+      "slot {} generation {} kp_V_per_m {} kd_V_s_per_m {} derivative_filter_hz {} on_measurement {}", number,
+      slot.generation, slot.gains.kp_V_per_m, slot.gains.kd_V_s_per_m, slot.gains.derivative_filter_hz,
+      slot.gains.derivative_on_measurement ? 1 : 0);
+  return fmt::format("{} crc {:08x}\n", body, checksum(body));
+}
+
+struct Line {
+  int number = 0;
+  GainSlot slot;
+};
+
+std::optional<Line> parse(const std::string& text) {
+  const auto tail = text.rfind(" crc ");
+  if (tail == std::string::npos) return std::nullopt;
+  const std::string body = text.substr(0, tail);
+  if (fmt::format("{:08x}", checksum(body)) != text.substr(tail + 5)) return std::nullopt;
+  std::istringstream words(body);
+  std::string word;
+  Line line;
+  int on_measurement = 0;
+  words >> word >> line.number >> word >> line.slot.generation >> word >> line.slot.gains.kp_V_per_m >>
+      word >> line.slot.gains.kd_V_s_per_m >> word >> line.slot.gains.derivative_filter_hz >> word >>
+      on_measurement;
+  line.slot.gains.derivative_on_measurement = on_measurement != 0;
+  if (!words || line.number < 1 || line.number > 2 || !within_bounds(line.slot.gains)) return std::nullopt;
+  return line;
+}
+
+}  // namespace
+
+bool within_bounds(const PdGains& gains) {
+  const auto inside = [](wire::Id id, double value) {
+    const wire::Register& r = wire::info(id);
+    return value >= r.least && value <= r.most;
+  };
+  return inside(wire::Id::staged_kp_V_per_m, gains.kp_V_per_m) &&
+         inside(wire::Id::staged_kd_V_s_per_m, gains.kd_V_s_per_m) &&
+         inside(wire::Id::staged_filter_hz, gains.derivative_filter_hz);
+}
+
+Result<GainStore> GainStore::open(const std::filesystem::path& file) {
+  GainStore store;
+  store.file_ = file;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return store;
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  std::istringstream lines(*text);
+  for (std::string line; std::getline(lines, line);) {
+    if (const auto parsed = parse(line))
+      store.slots_[static_cast<std::size_t>(parsed->number - 1)] = parsed->slot;
+  }
+  for (const int number : {1, 2}) {
+    const auto& slot = store.slot(number);
+    if (slot && (store.active_ == 0 || slot->generation > store.slot(store.active_)->generation)) {
+      store.active_ = number;
+    }
+  }
+  return store;
+}
+
+Result<void> GainStore::store(const PdGains& gains) {
+  if (!within_bounds(gains)) return failure("gains are out of bounds");
+  std::uint32_t newest = 0;
+  for (const auto& slot : slots_) newest = slot ? std::max(newest, slot->generation) : newest;
+  const int number = active_ == 1 ? 2 : 1;
+  auto slots = slots_;
+  slots[static_cast<std::size_t>(number - 1)] = GainSlot{newest + 1, gains};
+  std::string text;
+  for (const int each : {1, 2}) {
+    const auto& slot = slots[static_cast<std::size_t>(each - 1)];
+    if (slot) text += line_of(each, *slot);
+  }
+  const auto written = write_file(file_, text);
+  if (!written) return written;
+  slots_ = slots;
+  active_ = number;
+  return {};
+}
+
+Result<void> GainStore::activate(int number) {
+  if (number < 1 || number > 2 || !slot(number))
+    return failure(fmt::format("slot {} holds no valid gains", number));
+  active_ = number;
+  return {};
+}
+
+}  // namespace cartwright::firmware

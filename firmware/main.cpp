@@ -1,0 +1,57 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "common/wire/register_map.hpp"
+#include "firmware/daemon.hpp"
+
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  cartwrightd --rig simulated.toml                             serve a simulated cart in real time\n"
+    "  cartwrightd --rig simulated.toml --virtual --port 0          in virtual time, on a free port\n"
+    "  cartwrightd --rig simulated.toml --once battery --out demo   record the identification set and leave\n"
+    "  cartwrightd --rig simulated.toml --virtual --once step --set step_amplitude_m=0.05 --out step\n"
+    "  cartwrightd --registers                                      the register map as Markdown";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using cartwright::firmware::Options;
+  CLI::App app{"cartwrightd: the controller of a DC-motor cart"};
+  app.footer(kExamples);
+  app.set_version_flag("--version", CARTWRIGHT_VERSION);
+  Options options;
+  bool registers = false;
+  app.add_option("--rig", options.rig_file, "rig file (TOML)");
+  app.add_flag("--virtual", options.virtual_time, "virtual time, whatever the rig file says");
+  app.add_option("--port", options.port, "Modbus TCP port, 0 for a free one (default: the rig file's, 1502)")
+      ->check(CLI::Range(0, 65535));
+  CLI::Option* once =
+      app.add_option("--once", options.once,
+                     "run one experiment and leave: step, relay, track, sweep, dither, hold, battery");
+  app.add_option("--out", options.out, "directory to write the recordings of --once to")->needs(once);
+  app.add_option("--set", options.settings,
+                 "NAME=VALUE of an experiment register, for --once; see --registers")
+      ->needs(once);
+  app.add_flag("--registers", registers, "print the register map as Markdown and leave");
+  try {
+    app.parse(argc, argv);
+    if (registers) {
+      std::fputs(cartwright::wire::register_map_markdown().c_str(), stdout);
+      return 0;
+    }
+    const auto outcome = cartwright::firmware::run(options);
+    if (outcome) return *outcome;
+    std::fprintf(stderr, "cartwrightd: %s\n", outcome.error().message.c_str());
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "cartwrightd: %s; see cartwrightd --help\n", error.what());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cartwrightd: %s\n", error.what());
+  }
+  return 2;
+}
