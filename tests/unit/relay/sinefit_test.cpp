@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tests/unit/sine_signals.hpp"
+#include "tests/unit/relay/sine_signals.hpp"
 
 namespace cartwright {
 namespace {
