@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/config/toml_text.hpp"
+
 namespace cartwright {
 
 Result<Rig> rig_from_toml(const TomlReader& root) {
@@ -37,9 +39,9 @@ Result<Rig> rig_from_toml(const TomlReader& root) {
 
 std::string rig_to_toml(const Rig& rig) {
   return fmt::format(
-      "[rig]\nname = \"{}\"\nsample_rate_hz = {}\nencoder_resolution_m = {}\nvoltage_limit_V = {}\n"
+      "[rig]\nname = {}\nsample_rate_hz = {}\nencoder_resolution_m = {}\nvoltage_limit_V = {}\n"
       "travel_m = [{}, {}]\n",
-      rig.name, rig.sample_rate_hz, rig.encoder_resolution_m, rig.voltage_limit_V, rig.travel_m[0],
+      toml_text(rig.name), rig.sample_rate_hz, rig.encoder_resolution_m, rig.voltage_limit_V, rig.travel_m[0],
       rig.travel_m[1]);
 }
 

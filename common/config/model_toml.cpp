@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <toml++/toml.h>
+#include <cmath>
+
+#include "common/config/toml_text.hpp"
 
 namespace cartwright {
 namespace {
@@ -41,8 +43,8 @@ Result<void> read_term(Model& model, Term term, const toml::table& table, std::s
     const toml::node* node = table.get(parameter.key);
     if (!node) {
       if (parameter.default_value) continue;
-      return failure(fmt::format("{}: [model.{}] lacks {} ({})", where(source, table.source()), info(term).name,
-                                 parameter.key, parameter.meaning));
+      return failure(fmt::format("{}: [model.{}] lacks {} ({})", where(source, table.source()),
+                                 info(term).name, parameter.key, parameter.meaning));
     }
     const Result<double> value = number(*node, parameter, source);
     if (!value) return tl::unexpected(value.error());
@@ -102,7 +104,7 @@ std::string to_toml(const Model& model) {
     if (!model.has(term.id)) continue;
     text += fmt::format("\n[model.{}]\n", term.name);
     if (term.id == Term::external_disturbance) {
-      text += fmt::format("recording = \"{}\"\n", model.disturbance_recording);
+      text += fmt::format("recording = {}\n", toml_text(model.disturbance_recording));
     }
     for (const ParameterInfo& parameter : parameters_of(term.id)) {
       if (parameter.default_value && model[parameter.id] == *parameter.default_value) continue;

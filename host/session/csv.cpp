@@ -88,6 +88,12 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
       double value = std::numeric_limits<double>::quiet_NaN();
       if (!cell.empty()) {
         if (cell.front() == '+') cell.remove_prefix(1);
+        std::string with_point;
+        if (separator != ',' && cell.find(',') != std::string_view::npos) {  // decimal comma
+          with_point = cell;
+          std::replace(with_point.begin(), with_point.end(), ',', '.');
+          cell = with_point;
+        }
         const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
         if (error != std::errc{} || end != cell.data() + cell.size()) {
           problem = fmt::format("{}:{}: {} is '{}', a number is needed", source, line_number,
@@ -111,10 +117,28 @@ Result<CsvTable> read_csv(const std::filesystem::path& file) {
   return read_file(file).and_then([&](const std::string& text) { return parse_csv(text, file.string()); });
 }
 
+std::vector<std::string> csv_identifiers(std::vector<std::string> names) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::string& name = names[i];
+    for (char& c : name) {
+      if (!is_letter(c) && !(c >= '0' && c <= '9')) c = '_';
+    }
+    if (name.empty() || !is_letter(name.front())) name.insert(0, "x_");
+    const std::string plain = name;
+    const auto taken = [&] {
+      return std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), name) !=
+             names.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    for (int copy = 2; taken(); ++copy) name = fmt::format("{}_{}", plain, copy);
+  }
+  return names;
+}
+
 std::string to_csv(const CsvTable& table) {
   fmt::memory_buffer out;
   auto end = fmt::appender(out);
-  fmt::format_to(end, "{}\n", fmt::join(table.names, ","));
+  fmt::format_to(end, "{}\n", fmt::join(csv_identifiers(table.names), ","));
   for (std::size_t row = 0; row < table.rows(); ++row) {
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
       if (column > 0) out.push_back(',');

@@ -8,6 +8,7 @@
 
 #include "common/config/controller_toml.hpp"
 #include "common/config/toml_reader.hpp"
+#include "common/config/toml_text.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright {
@@ -141,10 +142,11 @@ Result<void> write_session(const Session& session, const fs::path& directory) {
   std::string text = rig_to_toml(session.rig);
   for (const Recording& recording : session.recordings) {
     files.push_back({recording.file, to_csv(to_table(recording))});
-    text += fmt::format("\n[[recording]]\nfile = \"{}\"\n", recording.file);
-    if (!recording.experiment.empty()) text += fmt::format("experiment = \"{}\"\n", recording.experiment);
+    text += fmt::format("\n[[recording]]\nfile = {}\n", toml_text(recording.file));
+    if (!recording.experiment.empty())
+      text += fmt::format("experiment = {}\n", toml_text(recording.experiment));
     text += controller_to_toml(recording.controller);
-    if (!recording.repeat_of.empty()) text += fmt::format("repeat_of = \"{}\"\n", recording.repeat_of);
+    if (!recording.repeat_of.empty()) text += fmt::format("repeat_of = {}\n", toml_text(recording.repeat_of));
   }
   files.push_back({"session.toml", std::move(text)});
   return write_files(directory, files);

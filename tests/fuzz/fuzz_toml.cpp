@@ -1,4 +1,5 @@
-// Any text either is refused in one line or is a model; a model that is written and read again is the same model.
+// Any text either is refused in one line or is a model; a model that is written and read again is the same
+// model.
 #include <cstdint>
 #include <cstdlib>
 
