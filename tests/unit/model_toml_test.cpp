@@ -37,8 +37,7 @@ TEST(ModelToml, EachTermAloneReadsBackAloneWithoutTheOthers) {
     Model model(-2.0);
     model.add(term.id);
     for (const ParameterInfo& parameter : parameters_of(term.id)) {
-      if (!parameter.default_value)
-        model.set(parameter.id, std::min(parameter.upper, 1.0) / 8 + parameter.lower * 0);
+      if (!parameter.default_value) model.set(parameter.id, std::min(parameter.upper, 1.0) / 8);
     }
     const auto again = model_from_toml(to_toml(model), "m.toml");
     ASSERT_TRUE(again.has_value()) << again.error().message;
