@@ -35,7 +35,8 @@ Relay cycling(const RigFile& rig) {
 Programme battery(const RigFile& rig) {
   const double shorter_m = std::min(-rig.rig.travel_m[0], rig.rig.travel_m[1]) - rig.travel_margin_m;
   const double scale = std::clamp(0.6 * shorter_m / 0.2, 0.0, 1.0);
-  const double voltage = std::min(1.0, rig.rig.voltage_limit_V / 12);
+  // A limit cycle and a dither move the cart in proportion to their voltage.
+  const double voltage = std::min(scale, rig.rig.voltage_limit_V / 12);
   const double period_s = rig.rig.period_s();
   constexpr PdGains kStep{60, 0, 50, false}, kFirm{80, 3, 50, false}, kTrackA{80, 2, 50, false},
       kTrackB{60, 1, 50, false}, kSweep{100, 2, 50, false}, kDither{30, 1, 50, false};

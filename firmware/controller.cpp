@@ -71,14 +71,14 @@ void Controller::tick(const hal::Tick& tick, double lateness_s, std::uint32_t mi
   status_.present = supervisor_.watch(readings_, period_s, last_output_V_, missed);
   const Request* const request = exchange_.requests.peek();
   if (request) obey(*request);
-  if (status_.state == State::armed || status_.state == State::running) latch(status_.present);
+  const bool was_live = status_.state == State::armed || status_.state == State::running;
+  if (was_live) latch(status_.present);
   if (status_.state == State::running && exchange_.host_lost.load(std::memory_order_acquire)) {
     latch({wire::Fault::lost_host, 0, setup_.bounds.host_timeout_s});
   }
 
   Wanted wanted;
   OutputStage::Result out;
-  const bool was_live = status_.state == State::armed || status_.state == State::running;
   if (status_.state == State::running) wanted = run(y_m);
   if (was_live) {
     out = output_.shape(wanted.voltage_V, setup_.period_s);

@@ -12,7 +12,6 @@
 #include "firmware/modbus_server.hpp"
 #include "firmware/realtime.hpp"
 #include "firmware/session_writer.hpp"
-#include "hal/sim/simulated_cart.hpp"
 
 namespace cartwright::firmware {
 namespace {
@@ -35,22 +34,10 @@ void catch_signals() {
   ::sigaction(SIGINT, &action, nullptr);
 }
 
-hal::sim::CartSetup cart_setup(const RigFile& rig) {
-  hal::sim::CartSetup setup;
-  setup.model = rig.model;
-  setup.encoder_resolution_m = rig.rig.encoder_resolution_m;
-  setup.amplifier_limit_V = rig.rig.voltage_limit_V;
-  setup.low_end_m = rig.rig.travel_m[0] - rig.end_stop_m;
-  setup.high_end_m = rig.rig.travel_m[1] + rig.end_stop_m;
-  setup.start_position_m = rig.start_position_m;
-  setup.seed = rig.seed;
-  return setup;
-}
-
-/// Everything a controller needs, put together from a rig file.
+/// A controller with what it shares and the clock it runs on.
 struct Machine {
-  Machine(const RigFile& file, const PdGains* gains)
-      : cart(cart_setup(file)), exchange(kLogRows), controller(setup(file, gains), cart.devices(), exchange) {
+  Machine(const RigFile& file, const hal::Devices& devices, const GainStore& gains)
+      : exchange(kLogRows), controller(setup(file, gains), devices, exchange) {
     if (file.virtual_time) {
       pacer = std::make_unique<VirtualPacer>(kIdleRest_ns);
     } else {
@@ -58,13 +45,12 @@ struct Machine {
     }
   }
 
-  static ControllerSetup setup(const RigFile& file, const PdGains* gains) {
+  static ControllerSetup setup(const RigFile& file, const GainStore& gains) {
     ControllerSetup out = controller_setup(file);
-    if (gains) out.gains = *gains;
+    if (gains.active() > 0) out.gains = gains.slot(gains.active())->gains;
     return out;
   }
 
-  hal::sim::SimulatedCart cart;
   Exchange exchange;
   Telemetry telemetry;
   Controller controller;
@@ -138,7 +124,7 @@ Result<int> record_once(const Options& options, const RigFile& rig, Machine& mac
   return 1;
 }
 
-Result<int> serve(const RigFile& rig, Machine& machine, GainStore gains) {
+Result<int> serve(const RigFile& rig, const hal::Devices& devices, Machine& machine, GainStore gains) {
   auto server = ModbusServer::listen(
       rig.listen, rig.port, RegisterFile(rig, machine.exchange, machine.telemetry, std::move(gains)));
   if (!server) return tl::unexpected(server.error());
@@ -149,35 +135,39 @@ Result<int> serve(const RigFile& rig, Machine& machine, GainStore gains) {
   Loop loop(machine.controller, *machine.pacer, period_ns(rig), machine.telemetry);
   loop.run(stop_requested);
   // The devices outlive the loop: leave them without voltage.
-  machine.cart.write({machine.pacer->now_ns(), period_ns(rig)}, {0, false});
+  devices.amplifier->write({machine.pacer->now_ns(), period_ns(rig)}, {0, false});
   return 0;
 }
 
 }  // namespace
 
-Result<int> run(const Options& options) {
+Result<RigFile> load_rig(const Options& options) {
   if (options.rig_file.empty()) return failure("--rig FILE is needed; an example lies in firmware/examples");
   auto rig = read_rig_file(options.rig_file);
-  if (!rig) return tl::unexpected(rig.error());
+  if (!rig) return rig;
   if (options.virtual_time) rig->virtual_time = true;
   if (options.port >= 0) rig->port = options.port;
-  auto gains = GainStore::open(rig->gain_file);
+  return rig;
+}
+
+Result<int> run(const Options& options, const RigFile& rig, const hal::Devices& devices) {
+  auto gains = GainStore::open(rig.gain_file);
   if (!gains) return tl::unexpected(gains.error());
-  const PdGains* const active = gains->active() > 0 ? &gains->slot(gains->active())->gains : nullptr;
-  const auto machine = std::make_unique<Machine>(*rig, active);
+  const auto machine = std::make_unique<Machine>(rig, devices, *gains);
   catch_signals();
-  if (!options.once.empty()) return record_once(options, *rig, *machine);
-  if (rig->virtual_time) return serve(*rig, *machine, std::move(*gains));
-  Realtime realtime = prepare_process();
-  prepare_thread(realtime);
-  for (const std::string& line : realtime.missing) std::fprintf(stderr, "cartwrightd: %s\n", line.c_str());
-  if (rig->kind != "simulated" && rig->require_realtime && !realtime.sufficient()) {
-    return failure(
-        "a real cart is not driven without SCHED_FIFO and locked memory; mend the above or write "
-        "require_realtime = "
-        "false in [rig]");
+  if (!rig.virtual_time) {
+    Realtime realtime = prepare_process();
+    prepare_thread(realtime);
+    for (const std::string& line : realtime.missing) std::fprintf(stderr, "cartwrightd: %s\n", line.c_str());
+    if (rig.kind != "simulated" && rig.require_realtime && !realtime.sufficient()) {
+      return failure(
+          "a real cart is not driven without SCHED_FIFO and locked memory; mend the above or write "
+          "require_realtime = "
+          "false in [rig]");
+    }
   }
-  return serve(*rig, *machine, std::move(*gains));
+  if (!options.once.empty()) return record_once(options, rig, *machine);
+  return serve(rig, devices, *machine, std::move(*gains));
 }
 
 }  // namespace cartwright::firmware

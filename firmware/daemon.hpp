@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "firmware/rig_file.hpp"
+#include "hal/interface/stage.hpp"
 
 namespace cartwright::firmware {
 
@@ -16,8 +18,11 @@ struct Options {
   std::vector<std::string> settings;  ///< NAME=VALUE
 };
 
-/// Runs the controller: serves until SIGTERM or SIGINT, or makes the recordings of one experiment and leaves.
-/// Returns the exit status, or what made its input unusable.
-Result<int> run(const Options& options);
+/// The rig file that the options name, with what they override.
+Result<RigFile> load_rig(const Options& options);
+
+/// Runs the controller on these devices: serves until SIGTERM or SIGINT, or makes the recordings of one
+/// experiment and leaves. Returns the exit status, or what made its input unusable.
+Result<int> run(const Options& options, const RigFile& rig, const hal::Devices& devices);
 
 }  // namespace cartwright::firmware

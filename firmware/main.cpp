@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
+#include <exception>
 
 #include "common/wire/register_map.hpp"
 #include "firmware/daemon.hpp"
+#include "hal/sim/simulated_cart.hpp"
 
 namespace {
 
@@ -15,6 +15,26 @@ constexpr const char* kExamples =
     "  cartwrightd --rig simulated.toml --once battery --out demo   record the identification set and leave\n"
     "  cartwrightd --rig simulated.toml --virtual --once step --set step_amplitude_m=0.05 --out step\n"
     "  cartwrightd --registers                                      the register map as Markdown";
+
+/// The one place that chooses devices. A real rig is refused when its file is read: this version has none.
+cartwright::hal::sim::CartSetup cart_setup(const cartwright::firmware::RigFile& rig) {
+  cartwright::hal::sim::CartSetup setup;
+  setup.model = rig.model;
+  setup.encoder_resolution_m = rig.rig.encoder_resolution_m;
+  setup.amplifier_limit_V = rig.rig.voltage_limit_V;
+  setup.low_end_m = rig.rig.travel_m[0] - rig.end_stop_m;
+  setup.high_end_m = rig.rig.travel_m[1] + rig.end_stop_m;
+  setup.start_position_m = rig.start_position_m;
+  setup.seed = rig.seed;
+  return setup;
+}
+
+cartwright::Result<int> start(const cartwright::firmware::Options& options) {
+  const auto rig = cartwright::firmware::load_rig(options);
+  if (!rig) return tl::unexpected(rig.error());
+  cartwright::hal::sim::SimulatedCart cart(cart_setup(*rig));
+  return cartwright::firmware::run(options, *rig, cart.devices());
+}
 
 }  // namespace
 
@@ -43,7 +63,7 @@ int main(int argc, char** argv) {
       std::fputs(cartwright::wire::register_map_markdown().c_str(), stdout);
       return 0;
     }
-    const auto outcome = cartwright::firmware::run(options);
+    const auto outcome = start(options);
     if (outcome) return *outcome;
     std::fprintf(stderr, "cartwrightd: %s\n", outcome.error().message.c_str());
   } catch (const CLI::Success& request) {  // --help, --version
