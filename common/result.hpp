@@ -5,7 +5,8 @@
 
 namespace cartwright {
 
-/// What went wrong, in one line a person can act on: where (file, line or key), what is wrong, what would be right.
+/// What went wrong, in one line a person can act on: where (file, line or key), what is wrong, what would be
+/// right.
 struct Error {
   std::string message;
 };

@@ -14,8 +14,8 @@ struct DualRelayGains {
 ///
 ///     u = clip(h1 sgn(e) + h2 sgn(I) + d, +-limit)                [V]          sgn(0) = +1
 ///
-/// (Tan, Lee and others, Fig. 4.) With a hysteresis the first relay changes over only once e has passed zero by that
-/// much; 0 is the plain relay. No allocation, no exception.
+/// (Tan, Lee and others, Fig. 4.) With a hysteresis the first relay changes over only once e has passed zero
+/// by that much; 0 is the plain relay. No allocation, no exception.
 class DualRelayController {
  public:
   DualRelayController(const DualRelayGains& gains, double period_s, double voltage_limit_V)

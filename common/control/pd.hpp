@@ -19,8 +19,8 @@ struct PdGains {
 ///     ef += (1 - exp(-2 pi f Ts)) ((e - e_prev)/Ts - ef)          filtered derivative [m/s]
 ///     u   = clip(Kp e + Kd ef + d, +-limit)                       [V]
 ///
-/// e_prev = e at the first tick. With the derivative on the measurement -y takes the place of e in it, so that a step
-/// of the reference does not kick. No allocation, no exception.
+/// e_prev = e at the first tick. With the derivative on the measurement -y takes the place of e in it, so
+/// that a step of the reference does not kick. No allocation, no exception.
 class PdController {
  public:
   PdController(const PdGains& gains, double period_s, double voltage_limit_V)
@@ -46,7 +46,8 @@ class PdController {
     first_ = false;
     filtered_m_per_s_ += smoothing_ * ((source - previous_) / period_s_ - filtered_m_per_s_);
     previous_ = source;
-    return clip(gains_.kp_V_per_m * error + gains_.kd_V_s_per_m * filtered_m_per_s_ + added_V, voltage_limit_V_);
+    return clip(gains_.kp_V_per_m * error + gains_.kd_V_s_per_m * filtered_m_per_s_ + added_V,
+                voltage_limit_V_);
   }
 
   const PdGains& gains() const { return gains_; }

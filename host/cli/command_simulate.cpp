@@ -26,7 +26,8 @@ Outcome run(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, int& exit_status) {
-  CLI::App* command = app.add_subcommand("simulate", "Re-run each recording's controller and reference on a model");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Re-run each recording's controller and reference on a model");
   command->footer(
       "Example:\n"
       "  cartwright simulate --model nominal.toml --session rig/monday --out rig/monday-simulated");

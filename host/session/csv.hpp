@@ -19,12 +19,13 @@ struct CsvTable {
 };
 
 /// Reads CSV text. Tolerant: byte-order mark, CRLF, blank lines, spaces and quotes around cells, a semicolon
-/// or tab as separator, and then a decimal comma. Strict: a header line, unique names, numbers only, the same number of cells in every
-/// row. `source` names the file in messages.
+/// or tab as separator, and then a decimal comma. Strict: a header line, unique names, numbers only, the same
+/// number of cells in every row. `source` names the file in messages.
 Result<CsvTable> parse_csv(std::string_view text, std::string_view source);
 Result<CsvTable> read_csv(const std::filesystem::path& file);
 
-/// Names as valid and unique identifiers: other characters become underscores, a second like name gets a number.
+/// Names as valid and unique identifiers: other characters become underscores, a second like name gets a
+/// number.
 std::vector<std::string> csv_identifiers(std::vector<std::string> names);
 
 /// Header in line 1, comma and point, shortest round-trip numbers, empty cell for NaN, LF.

@@ -1,5 +1,5 @@
-// Cost of one simulated millisecond: the closed form, the numerical one-mass integrator bare and with costly terms,
-// two masses. Steps of a millisecond, as the diagnosis uses them.
+// Cost of one simulated millisecond: the closed form, the numerical one-mass integrator bare and with costly
+// terms, two masses. Steps of a millisecond, as the diagnosis uses them.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -14,7 +14,8 @@ using P = Parameter;
 
 void ticks(benchmark::State& bench, const Model& model) {
   std::array<double, 1024> command_V{};
-  for (std::size_t i = 0; i < command_V.size(); ++i) command_V[i] = 4 * std::sin(0.05 * static_cast<double>(i));
+  for (std::size_t i = 0; i < command_V.size(); ++i)
+    command_V[i] = 4 * std::sin(0.05 * static_cast<double>(i));
   PlantOptions options;
   options.step_s = 1e-3;
   Plant plant(model, options);
@@ -26,7 +27,9 @@ void ticks(benchmark::State& bench, const Model& model) {
   }
 }
 
-Model nominal() { return Model(1.9).set(P::viscous_coefficient, 5).set(P::coulomb_level, 0.5); }
+Model nominal() {
+  return Model(1.9).set(P::viscous_coefficient, 5).set(P::coulomb_level, 0.5);
+}
 
 BENCHMARK_CAPTURE(ticks, nominal, nominal());
 BENCHMARK_CAPTURE(ticks, drag, nominal().set(P::drag_coefficient, 1));
@@ -40,8 +43,10 @@ BENCHMARK_CAPTURE(ticks, heating, nominal().set(P::heating_gain_loss, 0.1).set(P
 BENCHMARK_CAPTURE(ticks, presliding, nominal().set(P::presliding_stiffness, 2e4));
 BENCHMARK_CAPTURE(ticks, backlash, nominal().set(P::backlash_gap, 5e-4));
 BENCHMARK_CAPTURE(ticks, coupling,
-                  nominal().set(P::coupling_resonance, 20).set(P::coupling_damping_ratio, 0.05).set(
-                      P::coupling_load_share, 0.4));
+                  nominal()
+                      .set(P::coupling_resonance, 20)
+                      .set(P::coupling_damping_ratio, 0.05)
+                      .set(P::coupling_load_share, 0.4));
 
 }  // namespace
 }  // namespace cartwright
