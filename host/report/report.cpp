@@ -31,6 +31,13 @@ std::string inside_script(const std::string& text) {
   return out;
 }
 
+bool same_series(const Plot& a, const Plot& b) {
+  return std::equal(a.series.begin(), a.series.end(), b.series.begin(), b.series.end(),
+                    [](const Series& one, const Series& other) {
+                      return one.name == other.name && one.mark == other.mark && one.colour == other.colour;
+                    });
+}
+
 struct ToneWords {
   const char *name, *sign;
 };
@@ -113,13 +120,14 @@ Report& Report::table(const Table& table) {
   return *this;
 }
 
-std::string Report::plot_html(const Plot& plot) {
+std::string Report::plot_html(const Plot& plot, bool own_legend) {
   const std::string number = std::to_string(plots_.size());
   plots_.push_back(to_json(plot, pool_));
   std::string out = "<figure class=\"plot\" data-plot=\"" + number + "\">";
   if (!plot.title.empty()) out += "<h4>" + escape(plot.title) + "</h4>";
+  if (own_legend) out += "<div class=\"legend\"></div>";
   out +=
-      "<div class=\"legend\"></div><div class=\"area\" style=\"min-height:" + std::to_string(plot.height_px) +
+      "<div class=\"area\" style=\"min-height:" + std::to_string(plot.height_px) +
       "px\"><noscript>This plot needs JavaScript.</noscript></div>";
   if (!plot.caption.empty()) out += "<figcaption>" + escape(plot.caption) + "</figcaption>";
   return out + "</figure>\n";
@@ -132,7 +140,11 @@ Report& Report::plot(const Plot& plot) {
 
 Report& Report::plots(const std::vector<Plot>& plots, int columns) {
   body_ += "<div class=\"multiples\" style=\"--columns:" + std::to_string(std::max(1, columns)) + "\">\n";
-  for (const Plot& plot : plots) body_ += plot_html(plot);
+  const bool shared = plots.size() > 1 && std::all_of(plots.begin(), plots.end(), [&](const Plot& plot) {
+                        return same_series(plot, plots.front());
+                      });
+  if (shared) body_ += "<div class=\"legend\"></div>";
+  for (const Plot& plot : plots) body_ += plot_html(plot, !shared);
   body_ += "</div>\n";
   return *this;
 }

@@ -42,7 +42,8 @@ class Report {
   Report& table(const Table& table);
   Report& plot(const Plot& plot);
 
-  /// Small multiples, so many beside each other on a screen.
+  /// Small multiples, so many beside each other on a screen. Where all hold the same series one legend serves
+  /// them.
   Report& plots(const std::vector<Plot>& plots, int columns);
 
   /// What `fill` adds is folded away below `summary` until it is asked for.
@@ -54,7 +55,7 @@ class Report {
   Result<void> write(const std::filesystem::path& file) const;
 
  private:
-  std::string plot_html(const Plot& plot);
+  std::string plot_html(const Plot& plot, bool own_legend = true);
 
   std::string title_, subtitle_;
   std::string body_;

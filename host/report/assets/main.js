@@ -20,6 +20,14 @@
     return plot;
   });
 
+  // One legend for all small multiples of a kind, else one per plot.
+  const shared = new Map();
+  for (const plot of plots) {
+    const legend = plot.figure.querySelector(".legend") || plot.figure.closest(".multiples").querySelector(".legend");
+    shared.set(legend, [...(shared.get(legend) || []), plot]);
+  }
+  shared.forEach((members, legend) => Plot.drawLegend(legend, members));
+
   // Draws when a plot gets its width: at the start, on a new window size, when a fold is opened.
   const widths = new ResizeObserver((entries) => {
     for (const entry of entries) plots.find((plot) => plot.area === entry.target).draw();

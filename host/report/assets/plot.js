@@ -43,7 +43,6 @@ class Plot {
     this.content = this.svg.querySelector(".content");
     this.overlay = this.svg.querySelector(".overlay");
     this.readOut = this.area.querySelector(".read-out");
-    this.drawLegend();
   }
 
   // Bars of several series stand side by side in their category.
@@ -210,10 +209,11 @@ class Plot {
     }).join("");
   }
 
-  drawLegend() {
-    const legend = this.figure.querySelector(".legend");
-    if (this.series.filter((s) => s.name).length < 2) return;
-    this.series.forEach((one) => {
+  // A button for every named series; it acts on all plots that share the legend.
+  static drawLegend(legend, plots) {
+    const [first] = plots;
+    if (first.series.filter((s) => s.name).length < 2) return;
+    first.series.forEach((one, index) => {
       if (!one.name) return;
       const button = document.createElement("button");
       button.type = "button";
@@ -221,7 +221,12 @@ class Plot {
       const shape = { points: '<circle cx="9" cy="5" r="3.2"', bars: '<rect x="4" y="0" width="10" height="10"', band: '<rect x="1" y="1" width="16" height="8" fill-opacity="0.25"' }[one.mark];
       button.innerHTML = `<svg width="18" height="10" aria-hidden="true">${shape ? `${shape} fill="${one.colour}"/>` : `<path d="M0 5H18" stroke="${one.colour}" stroke-width="${one.broad ? 5 : 2.2}"${one.dashed ? ' stroke-dasharray="5 3"' : ""}/>`}</svg>${escapeText(one.name)}`;
       const show = () => button.setAttribute("aria-pressed", String(one.shown));
-      button.addEventListener("click", () => { one.shown = !one.shown; show(); this.group.forEach((plot) => plot.draw()); });
+      button.addEventListener("click", () => {
+        const shown = !one.shown;
+        for (const plot of plots) plot.series[index].shown = shown;
+        show();
+        new Set(plots.flatMap((plot) => plot.group)).forEach((plot) => plot.draw());
+      });
       show();
       legend.append(button);
     });

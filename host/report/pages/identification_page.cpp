@@ -1,0 +1,87 @@
+#include "host/report/pages/identification_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/pages/friction_curve.hpp"
+#include "host/report/pages/gain_pairs.hpp"
+#include "host/report/pages/model_fit.hpp"
+#include "host/report/pages/parameters.hpp"
+#include "host/report/session_page.hpp"
+
+namespace cartwright::report {
+namespace {
+
+constexpr Colour kModelColours[] = {Colour::model, Colour::other_model, Colour::fourth, Colour::warning};
+
+/// The speed that nearly all rows stay below, from positions a few rows apart so that the encoder's steps do
+/// not count as speed.
+double usual_top_speed_m_per_s(const Session& session) {
+  constexpr std::size_t kApart = 10;
+  std::vector<double> speeds;
+  for (const Recording& recording : session.recordings) {
+    for (std::size_t i = kApart; i < recording.size(); i += kApart) {
+      speeds.push_back(std::abs(recording.y_m[i] - recording.y_m[i - kApart]) /
+                       (recording.t_s[i] - recording.t_s[i - kApart]));
+    }
+  }
+  if (speeds.empty()) return 1;
+  const auto high = speeds.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(speeds.size()));
+  std::nth_element(speeds.begin(), high, speeds.end());
+  return std::max(*high, 1e-3);
+}
+
+double total_time_s(const Session& session) {
+  double sum = 0;
+  for (const Recording& recording : session.recordings) sum += recording.t_s.back() - recording.t_s.front();
+  return sum;
+}
+
+void add_what_was_run(Report& page, const IdentificationPage& content) {
+  const Rig& rig = content.session.rig;
+  page.section("What was run");
+  page.facts({{"Rig", rig.name},
+              {"Recordings", fmt::format("{}, {:.1f} s in all", content.session.recordings.size(),
+                                         total_time_s(content.session))},
+              {"Sample rate", fmt::format("{} Hz", rig.sample_rate_hz)},
+              {"Encoder", fmt::format("{:.4g} µm per count", 1e6 * rig.encoder_resolution_m)},
+              {"Voltage limit", fmt::format("±{} V", rig.voltage_limit_V)},
+              {"Session", content.source},
+              {"Made by", "cartwright " CARTWRIGHT_VERSION}});
+  page.table(recordings_table(content.session));
+}
+
+}  // namespace
+
+Report identification_page(const IdentificationPage& content) {
+  const Session& session = content.session;
+  std::vector<NamedModel> models = content.models;
+  for (std::size_t i = 0; i < models.size(); ++i)
+    models[i].colour = kModelColours[i % std::size(kModelColours)];
+
+  Report page{"Identification of " + session.rig.name};
+  add_what_was_run(page, content);
+
+  page.section("Parameters");
+  std::vector<ParameterColumn> columns;
+  for (const NamedModel& one : models) columns.push_back(column_of(one.name, one.model));
+  if (content.truth) columns.push_back(column_of("true", *content.truth));
+  page.table(parameters_table("Every model side by side", columns));
+
+  std::vector<NamedModel> curves = models;
+  if (content.truth) curves.push_back({"true", *content.truth, Colour::truth});
+  page.section("Friction against speed");
+  page.plot(friction_curves(curves, usual_top_speed_m_per_s(session)));
+
+  add_gain_pairs(page, session, models);
+
+  page.section("Fit to every recording");
+  const Predictions predictions = predict_all(session, models);
+  add_fit_table(page, session, models, predictions);
+  add_recordings(page, session, models, predictions);
+  return page;
+}
+
+}  // namespace cartwright::report
