@@ -126,9 +126,8 @@ std::string Report::plot_html(const Plot& plot, bool own_legend) {
   std::string out = "<figure class=\"plot\" data-plot=\"" + number + "\">";
   if (!plot.title.empty()) out += "<h4>" + escape(plot.title) + "</h4>";
   if (own_legend) out += "<div class=\"legend\"></div>";
-  out +=
-      "<div class=\"area\" style=\"min-height:" + std::to_string(plot.height_px) +
-      "px\"><noscript>This plot needs JavaScript.</noscript></div>";
+  out += "<div class=\"area\" style=\"min-height:" + std::to_string(plot.height_px) +
+         "px\"><noscript>This plot needs JavaScript.</noscript></div>";
   if (!plot.caption.empty()) out += "<figcaption>" + escape(plot.caption) + "</figcaption>";
   return out + "</figure>\n";
 }
