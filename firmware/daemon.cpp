@@ -1,6 +1,7 @@
 #include "firmware/daemon.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <charconv>
@@ -97,6 +98,15 @@ bool obey(Machine& machine, Loop& loop, Request request) {
   return machine.controller.status().ack == wire::Ack::done;
 }
 
+/// One line on a terminal, over itself.
+void show_progress(const Status& status) {
+  const auto filled = static_cast<std::size_t>(40 * status.progress);
+  std::fprintf(stderr, "\r%s",
+               fmt::format("run {} of {} [{:40}] {:3.0f} %", status.run_index, status.run_count,
+                           std::string(filled, '#'), 100 * status.progress)
+                   .c_str());
+}
+
 Result<int> record_once(const Options& options, const RigFile& rig, Machine& machine) {
   if (options.out.empty()) return failure("--once needs --out DIR to write the recordings to");
   const auto settings = settings_from(options);
@@ -112,7 +122,13 @@ Result<int> record_once(const Options& options, const RigFile& rig, Machine& mac
   if (!obey(machine, loop, arm) || !obey(machine, loop, go)) {
     return failure(fmt::format("cannot start: {}", sentence(machine.controller.status().present)));
   }
-  while (machine.controller.state() == wire::State::running && !stop_requested) loop.tick();
+  const bool watched = ::isatty(STDERR_FILENO) == 1;
+  for (std::uint64_t tick = 0; machine.controller.state() == wire::State::running && !stop_requested;
+       ++tick) {
+    loop.tick();
+    if (watched && tick % 500 == 0) show_progress(machine.controller.status());
+  }
+  if (watched) std::fputs("\r\033[K", stderr);
   const Status& status = machine.controller.status();
   if (stop_requested) return failure("stopped before the experiment was over; nothing was written");
   const auto written = write_session(rig, machine.exchange, options.out);
@@ -122,6 +138,21 @@ Result<int> record_once(const Options& options, const RigFile& rig, Machine& mac
   if (status.state != wire::State::faulted) return 0;
   std::fprintf(stderr, "cartwrightd: fault at %s\n", sentence(status).c_str());
   return 1;
+}
+
+/// What the loop measured of itself, in one line that a script can read.
+void print(const Machine& machine) {
+  const auto line = [](const char* what, const Histogram& histogram) {
+    std::printf(" %s_us median %.1f p99 %.1f p999 %.1f greatest %.1f", what,
+                histogram.quantile_ns(0.5) * 1e-3, histogram.quantile_ns(0.99) * 1e-3,
+                histogram.quantile_ns(0.999) * 1e-3, histogram.greatest_ns() * 1e-3);
+  };
+  const Status& status = machine.controller.status();
+  std::printf("cartwrightd: %llu ticks, %u missed,", static_cast<unsigned long long>(status.tick),
+              status.missed_ticks);
+  line("lateness", machine.telemetry.lateness);
+  line("step", machine.telemetry.step_time);
+  std::printf("\n");
 }
 
 Result<int> serve(const RigFile& rig, const hal::Devices& devices, Machine& machine, GainStore gains) {
@@ -136,6 +167,7 @@ Result<int> serve(const RigFile& rig, const hal::Devices& devices, Machine& mach
   loop.run(stop_requested);
   // The devices outlive the loop: leave them without voltage.
   devices.amplifier->write({machine.pacer->now_ns(), period_ns(rig)}, {0, false});
+  print(machine);
   return 0;
 }
 

@@ -9,7 +9,7 @@
 
 namespace cartwright::firmware {
 
-/// Counts durations in buckets that grow by an eighth of a power of two (at most 12.5 % wide), from 1 ns to
+/// Counts durations in buckets that grow by a thirty-second of a power of two (at most 3.2 % wide), from 1 ns to
 /// 68 s. One thread adds, others may read while it does. No allocation.
 class Histogram {
  public:
@@ -43,7 +43,7 @@ class Histogram {
   }
 
  private:
-  static constexpr unsigned kFineBits = 3;
+  static constexpr unsigned kFineBits = 5;
   static constexpr std::size_t kBuckets = 36U << kFineBits;
 
   static std::size_t bucket_of(std::uint64_t value) noexcept {
