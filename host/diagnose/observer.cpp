@@ -1,0 +1,94 @@
+#include "host/diagnose/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/model/plant.hpp"
+
+namespace cartwright {
+namespace {
+
+constexpr double kSettling_s = 0.05;
+constexpr double kEagerRatio_per_s2 = 1e5;
+
+/// Slope of the first readings, for recordings that begin in motion.
+double first_velocity(const Rig& rig, const Recording& recording) {
+  const std::size_t rows = std::min(recording.size(), settling_rows(rig) / 2 + 2);
+  double st = 0, sy = 0, stt = 0, sty = 0;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double t = recording.t_s[k] - recording.t_s[0], y = recording.y_m[k] - recording.y_m[0];
+    st += t, sy += y, stt += t * t, sty += t * y;
+  }
+  const double n = static_cast<double>(rows);
+  const double slope = (n * sty - st * sy) / (n * stt - st * st);
+  const double span = recording.t_s[rows - 1] - recording.t_s[0];
+  return std::abs(slope * span) > 3 * rig.encoder_resolution_m ? slope : 0.0;
+}
+
+}  // namespace
+
+std::size_t settling_rows(const Rig& rig) { return static_cast<std::size_t>(kSettling_s * rig.sample_rate_hz) + 1; }
+
+double linear_damping(const Model& model) {
+  double c = 0;
+  if (model.has(Term::viscous_friction)) c += model[Parameter::viscous_coefficient];
+  if (model.has(Term::exponential_damping)) c += model[Parameter::exponential_gamma];
+  return std::clamp(c, 0.0, 100.0);
+}
+
+ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double damping_per_s) {
+  NoiseModel eager = noise;
+  eager.disturbance_per_reading_per_s2 = std::max(noise.disturbance_per_reading_per_s2, kEagerRatio_per_s2);
+  return {observer_gain(eager, rig.period_s(), damping_per_s), observer_gain(noise, rig.period_s(), damping_per_s)};
+}
+
+Prediction predict(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
+                   const ObserverOptions& options) {
+  PlantOptions plant_options;
+  plant_options.step_s = options.step_s;
+  plant_options.disturbance_active = model.disturbance_recording == recording.file;
+  plant_options.heating_start_s = recording.t_s.front();
+  Plant plant(model, plant_options);
+  plant.reset(recording.y_m.front(), first_velocity(rig, recording), recording.t_s.front());
+  const std::size_t start_rows = settling_rows(rig) / 2;
+
+  const bool eccentric = model.has(Term::encoder_eccentricity);
+  const double amplitude = model[Parameter::eccentricity_amplitude];
+  const double wavenumber = eccentric ? 2 * std::numbers::pi / model[Parameter::eccentricity_period] : 0;
+  const double phase = model[Parameter::eccentricity_phase];
+
+  Prediction out;
+  const std::size_t rows = recording.size();
+  out.error_m.assign(rows, 0.0);
+  if (options.keep_states) {
+    out.velocity_m_per_s.assign(rows, 0.0);
+    out.disturbance_m_per_s2.assign(rows, 0.0);
+  }
+  const double longest_step = 3 * rig.period_s();
+  double disturbance = 0;
+  for (std::size_t k = 1; k < rows; ++k) {
+    const double elapsed = recording.t_s[k] - recording.t_s[k - 1];
+    if (elapsed > longest_step) {  // a gap: begin anew behind it, never guess across
+      plant.reset(recording.y_m[k], 0, recording.t_s[k]);
+      disturbance = 0;
+      continue;
+    }
+    plant.advance(recording.u_V[k - 1], elapsed, disturbance);
+    const PlantState& state = plant.state();
+    double reading = state.position_m;
+    if (eccentric) reading += amplitude * std::sin(wavenumber * state.position_m + phase);
+    const double error = recording.y_m[k] - reading;
+    out.error_m[k] = error;
+    if (options.keep_states) {
+      out.velocity_m_per_s[k] = state.velocity_m_per_s;
+      out.disturbance_m_per_s2[k] = disturbance;
+    }
+    const ObserverGain& gain = k < start_rows ? gains.starting : gains.settled;
+    disturbance = gain.disturbance_decay * disturbance + gain.disturbance_per_s2 * error;
+    plant.correct(state.position_m + gain.position * error, state.velocity_m_per_s + gain.velocity_per_s * error);
+  }
+  return out;
+}
+
+}  // namespace cartwright
