@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "host/diagnose/screen.hpp"
+
+namespace cartwright {
+
+/// Start values that no fixed list can hold, found in the errors of `base` by linear regression on what the observer
+/// would have shown (influence.hpp), the base's own numbers refitted alongside. Each scan looks in many places; the
+/// promise it returns is already less what the best of that many looks at noise would bring.
+
+/// Cogging and encoder eccentricity: spatial frequencies up to the finest that speed and travel resolve.
+std::vector<Promise> scan_periods(const Session& session, const Fit& base, const SessionFacts& facts,
+                                  const FitOptions& options, unsigned threads);
+
+/// A push in one recording: matched filter over start and duration.
+std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
+                                 const FitOptions& options);
+
+/// A sudden lasting step of the reading.
+struct ReadingJump {
+  std::size_t recording, row;
+  double step_m;
+};
+
+/// Lost counts: steps of the reading that a matched filter finds, of at least two counts and far beyond noise.
+std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, const FitOptions& options);
+
+/// The session with its readings put back where they would be had no counts been lost.
+Session without_jumps(Session session, const std::vector<ReadingJump>& jumps);
+
+}  // namespace cartwright
