@@ -236,9 +236,9 @@ std::vector<double> counted_errors(const Session& session, const Model& model, c
   const ObserverGains gains = observer_gains(noise, session.rig, options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig);
   for (const Recording& recording : session.recordings) {
-    const Prediction prediction = predict(model, gains, session.rig, recording, observer);
+    const Observation seen = observe(model, gains, session.rig, recording, observer);
     if (recording.size() > skip) {
-      all.insert(all.end(), prediction.error_m.begin() + static_cast<std::ptrdiff_t>(skip), prediction.error_m.end());
+      all.insert(all.end(), seen.error_m.begin() + static_cast<std::ptrdiff_t>(skip), seen.error_m.end());
     }
   }
   return all;

@@ -43,7 +43,7 @@ ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double dam
   return {observer_gain(eager, rig.period_s(), damping_per_s), observer_gain(noise, rig.period_s(), damping_per_s)};
 }
 
-Prediction predict(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
+Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
                    const ObserverOptions& options) {
   PlantOptions plant_options;
   plant_options.step_s = options.step_s;
@@ -58,7 +58,7 @@ Prediction predict(const Model& model, const ObserverGains& gains, const Rig& ri
   const double wavenumber = eccentric ? 2 * std::numbers::pi / model[Parameter::eccentricity_period] : 0;
   const double phase = model[Parameter::eccentricity_phase];
 
-  Prediction out;
+  Observation out;
   const std::size_t rows = recording.size();
   out.error_m.assign(rows, 0.0);
   if (options.keep_states) {

@@ -9,7 +9,7 @@
 namespace cartwright {
 
 /// The one-step prediction errors of one recording and the states they were made from.
-struct Prediction {
+struct Observation {
   std::vector<double> error_m;            ///< y(k) - predicted y(k) from rows before k; row 0 is 0
   std::vector<double> velocity_m_per_s;   ///< predicted, before the correction (only if asked for)
   std::vector<double> disturbance_m_per_s2;  ///< acceleration the observer had to add (only if asked for)
@@ -35,7 +35,7 @@ struct ObserverOptions {
 ///     e(k) = y(k) - h(x(k)),   x(k) += K e(k),   v(k) += Kv e(k),   d(k) = phi d(k) + Kd e(k)
 ///
 /// Were model and noise right, e would be white; its mean square is then the likelihood of the recording.
-Prediction predict(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
+Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
                    const ObserverOptions& options = {});
 
 /// Rows at the beginning of a recording while the observer settles; they do not count.

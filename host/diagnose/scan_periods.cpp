@@ -41,7 +41,7 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
   ObserverOptions keep;
   keep.keep_states = true;
   for (const Recording& r : session.recordings) {
-    velocity.push_back(predict(base.model, gains, session.rig, r, keep).velocity_m_per_s);
+    velocity.push_back(observe(base.model, gains, session.rig, r, keep).velocity_m_per_s);
   }
 
   std::vector<Peak> push(count), reading(count);
@@ -78,11 +78,13 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
   });
 
   std::vector<Promise> promises;
+  // A period of the travel's own length bends like a straight line: it is not told from scale and offset.
+  const auto first = static_cast<std::size_t>(2 * kStepsPerLobe) - 2;
   const auto take_peaks = [&](const std::vector<Peak>& peaks, Term term, Parameter amplitude, Parameter period,
                               Parameter phase) {
     std::vector<std::size_t> tops;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (i > 0 && peaks[i - 1].gain > peaks[i].gain) continue;
+    for (std::size_t i = first; i < count; ++i) {
+      if (i > first && peaks[i - 1].gain > peaks[i].gain) continue;
       if (i + 1 < count && peaks[i + 1].gain >= peaks[i].gain) continue;
       tops.push_back(i);
     }

@@ -27,7 +27,7 @@ bool has_sign(Term term) {
 }  // namespace
 
 std::vector<Promise> screen(const Session& session, const Fit& base, const std::vector<Candidate>& list,
-                            const SessionFacts& facts, const FitOptions& options, unsigned threads) {
+                            const FitOptions& options, unsigned threads) {
   const auto rows = static_cast<Eigen::Index>(base.error_m.size());
   Eigen::VectorXd e = Eigen::Map<const Eigen::VectorXd>(base.error_m.data(), rows);
   if (options.outlier_m > 0) e = e.cwiseMin(options.outlier_m).cwiseMax(-options.outlier_m);
@@ -47,7 +47,6 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
       promises.push_back(std::move(promise));
     }
   }
-  (void)facts;
   parallel_for(promises.size(), threads, [&](std::size_t i) {
     Promise& promise = promises[i];
     const std::vector<double> errors = counted_errors(session, promise.start, base.noise, options);

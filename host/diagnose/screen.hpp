@@ -18,6 +18,6 @@ struct Promise {
 /// by a column; the base's own Jacobian is projected out, and the column's best multiple within [0, most] (or of
 /// either sign where the physics has none) is taken. One pass per start. Strongest first.
 std::vector<Promise> screen(const Session& session, const Fit& base, const std::vector<Candidate>& list,
-                            const SessionFacts& facts, const FitOptions& options, unsigned threads);
+                            const FitOptions& options, unsigned threads);
 
 }  // namespace cartwright

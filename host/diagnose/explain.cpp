@@ -1,0 +1,186 @@
+#include "host/diagnose/explain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "host/diagnose/parallel.hpp"
+
+namespace cartwright {
+namespace {
+
+constexpr std::size_t kTermsFitted = 6;       // most terms fitted after a screening
+constexpr std::size_t kStartsFitted = 3;      // most starts of one term
+constexpr double kLeastPromise = 4.0;         // nats
+constexpr double kLeastShareOfBest = 0.01;    // of the best promise
+constexpr double kOutlierOverNoise = 6.0;     // errors beyond this many noise sizes count linearly
+
+double robust_size(const std::vector<double>& errors) {
+  std::vector<double> sizes;
+  sizes.reserve(errors.size());
+  for (const double e : errors) sizes.push_back(std::abs(e));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * *middle;
+}
+
+class Explainer {
+ public:
+  Explainer(const Session& session, const Model& nominal, const SearchOptions& options)
+      : session_(session), nominal_(nominal), options_(options), facts_(facts_of(session)) {
+    fit_options_.damping_per_s = linear_damping(nominal);
+  }
+
+  Search run() {
+    Search search;
+    report("refitting the nominal model", 0);
+    const NoiseModel noise = search_noise(session_, nominal_, fit_options_);
+    search.nominal = fit(session_, nominal_, noise, {}, fit_options_);
+    set_outlier(search.nominal);
+    search.nominal = fit(session_, nominal_, search.nominal.noise, {}, fit_options_);
+    search.refitted.fit =
+        fit(session_, nominal_, search.nominal.noise, free_parameters(nominal_, facts_), fit_options_);
+    set_outlier(search.refitted.fit);
+    search.refitted.fit = fit(session_, search.refitted.fit.model, search.refitted.fit.noise,
+                              search.refitted.fit.free, fit_options_);
+    search.best = search.refitted;
+    for (std::size_t stage = 0; stage < options_.most_effects; ++stage) {
+      report("looking for what was left out",
+             (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1));
+      std::vector<Explanation> tried = next_effects(search, stage);
+      if (tried.empty() || tried.front().score() - search.best.score() < kLeastGain) {
+        break;
+      }
+      Contest contest{tried.front().effects.back(), tried.front().score() - search.best.score(), {}};
+      search.best = tried.front();
+      contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1), std::make_move_iterator(tried.end()));
+      search.contests.push_back(std::move(contest));
+      drop_redundant(search);
+    }
+    report("done", 1);
+    return search;
+  }
+
+ private:
+  void report(std::string_view what, double share) const {
+    if (options_.progress) options_.progress(what, share);
+  }
+
+  void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }
+
+  /// Every promising term added to the best explanation so far, fitted; best score first.
+  std::vector<Explanation> next_effects(Search& search, std::size_t stage) {
+    const Explanation& base = search.best;
+    const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
+    std::vector<Promise> promises = screen(data, base.fit, candidates(base.fit.model, facts_), fit_options_,
+                                           options_.threads);
+    for (const auto& found : {scan_periods(data, base.fit, facts_, fit_options_, options_.threads),
+                              scan_pushes(data, base.fit, facts_, fit_options_)}) {
+      promises.insert(promises.end(), found.begin(), found.end());
+    }
+    std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
+      return a.log_likelihood_gain > b.log_likelihood_gain;
+    });
+    if (stage == 0) search.promises = promises;
+    const std::vector<Promise> chosen = worth_fitting(promises);
+    std::vector<Explanation> tried(chosen.size());
+    parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
+      tried[i].effects = base.effects;
+      tried[i].effects.push_back(chosen[i].term);
+      tried[i].jumps = base.jumps;
+      tried[i].fit = fit(data, chosen[i].start, base.fit.noise, chosen[i].free, fit_options_);
+    });
+    if (!base.has(Term::encoder_missed_counts)) add_lost_counts(base, tried);
+    return best_per_term(std::move(tried));
+  }
+
+  std::vector<Promise> worth_fitting(const std::vector<Promise>& promises) const {
+    std::vector<Promise> chosen;
+    std::map<Term, std::size_t> starts;
+    for (const Promise& promise : promises) {
+      const double bar = std::max(kLeastPromise, kLeastShareOfBest * promises.front().log_likelihood_gain);
+      if (promise.log_likelihood_gain < bar) break;
+      if (!starts.contains(promise.term) && starts.size() >= kTermsFitted) continue;
+      // A second start is worth its time only where it promises nearly as much.
+      if (starts[promise.term] >= kStartsFitted) continue;
+      if (starts[promise.term] > 0 && !many_minima(promise.term)) continue;
+      ++starts[promise.term];
+      chosen.push_back(promise);
+    }
+    return chosen;
+  }
+
+  static bool many_minima(Term term) {
+    return term == Term::backlash || term == Term::flexible_coupling || term == Term::cogging ||
+           term == Term::encoder_eccentricity || term == Term::stribeck_friction ||
+           term == Term::position_dependent_friction || term == Term::presliding_friction;
+  }
+
+  void add_lost_counts(const Explanation& base, std::vector<Explanation>& tried) const {
+    const std::vector<ReadingJump> jumps = scan_jumps(session_, base.fit, fit_options_);
+    if (jumps.empty()) return;
+    Explanation lost = base;
+    lost.effects.push_back(Term::encoder_missed_counts);
+    lost.jumps = jumps;
+    const Session data = without_jumps(session_, jumps);
+    lost.fit = fit(data, base.fit.model, base.fit.noise, base.fit.free, fit_options_);
+    lost.fit.model.add(Term::encoder_missed_counts);
+    tried.push_back(std::move(lost));
+  }
+
+  static std::vector<Explanation> best_per_term(std::vector<Explanation> tried) {
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
+    std::vector<Explanation> kept;
+    for (Explanation& one : tried) {
+      const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Explanation& other) {
+        return other.effects.back() == one.effects.back();
+      });
+      if (!seen) kept.push_back(std::move(one));
+    }
+    return kept;
+  }
+
+  /// An effect found early may only have stood in for one found later.
+  void drop_redundant(Search& search) const {
+    for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
+      const Term term = search.best.effects[i];
+      if (term == Term::encoder_missed_counts) continue;
+      Explanation without = search.best;
+      without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
+      Model model = search.best.fit.model;
+      model.remove(term);
+      std::vector<FreeParameter> free;
+      for (const FreeParameter& p : search.best.fit.free) {
+        if (info(p.id).term != term) free.push_back(p);
+      }
+      const Session data = without_jumps(session_, without.jumps);
+      without.fit = fit(data, model, search.best.fit.noise, free, fit_options_);
+      if (search.best.score() - without.score() >= kLeastGain) continue;
+      search.best = std::move(without);
+      search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));
+      return;
+    }
+  }
+
+  const Session& session_;
+  const Model& nominal_;
+  const SearchOptions& options_;
+  SessionFacts facts_;
+  FitOptions fit_options_;
+};
+
+}  // namespace
+
+double Explanation::score() const {
+  const double numbers = static_cast<double>(fit.free.size()) + 2 * static_cast<double>(jumps.size());
+  return fit.log_likelihood - kCostPerNumber * numbers;
+}
+
+bool Explanation::has(Term term) const { return std::find(effects.begin(), effects.end(), term) != effects.end(); }
+
+Search explain(const Session& session, const Model& nominal, const SearchOptions& options) {
+  return Explainer(session, nominal, options).run();
+}
+
+}  // namespace cartwright

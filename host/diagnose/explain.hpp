@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "host/diagnose/scan.hpp"
+
+namespace cartwright {
+
+/// One way to explain a session: the nominal terms and some effects, all numbers fitted jointly.
+struct Explanation {
+  std::vector<Term> effects;  ///< in the order they were found
+  Fit fit;
+  std::vector<ReadingJump> jumps;  ///< readings put right, where counts were lost
+
+  /// Log-likelihood less what its numbers cost.
+  double score() const;
+  bool has(Term term) const;
+};
+
+/// What stood beside an effect when it was chosen.
+struct Contest {
+  Term chosen;
+  double gain = 0;                       ///< of the chosen over doing without, in nats, net of its numbers
+  std::vector<Explanation> alternatives;  ///< other terms in its place, best first
+};
+
+struct Search {
+  Fit nominal;           ///< as given, only the noise fitted
+  Explanation refitted;  ///< nominal terms, numbers refitted
+  Explanation best;
+  std::vector<Contest> contests;  ///< one per effect of `best`
+  std::vector<Promise> promises;  ///< of the first screening: what each term seemed to be worth
+};
+
+struct SearchOptions {
+  unsigned threads = 2;
+  std::size_t most_effects = 3;
+  std::function<void(std::string_view what, double share_done)> progress;
+};
+
+/// Cost of one fitted number [nats]: half the log of the number of independent errors a session of a minute holds
+/// (its blocks of 0.25 s times a few), the Bayesian information criterion's price.
+inline constexpr double kCostPerNumber = 4.0;
+/// An effect must gain this much, net of its numbers. Over some 300 looks (terms, starts, periods, places) at noise
+/// alone the best gains about log(300) = 6; twice that leaves room for noise that is not quite white.
+inline constexpr double kLeastGain = 12.0;
+
+/// Refits the nominal model, then adds one effect at a time from the whole vocabulary, each time the one that
+/// explains most with everything refitted, until none is worth its numbers; then drops what has become redundant.
+Search explain(const Session& session, const Model& nominal, const SearchOptions& options = {});
+
+}  // namespace cartwright
