@@ -1,0 +1,245 @@
+#include "host/diagnose/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/diagnose/axes.hpp"
+#include "host/diagnose/influence.hpp"
+#include "host/diagnose/parallel.hpp"
+
+namespace cartwright {
+namespace {
+
+/// Upper 0.5 per cent point of a chi-square, halved to nats, Wilson-Hilferty; the share is per axis.
+double chance_bar(double freedom, double upper_normal) {
+  const double a = 2 / (9 * freedom);
+  const double root = 1 - a + upper_normal * std::sqrt(a);
+  return 0.5 * freedom * root * root * root;
+}
+
+struct Basis {
+  Eigen::MatrixXd q;  ///< the model's own numbers, orthonormal
+  Eigen::VectorXd e;  ///< errors with those projected out
+  double variance;
+};
+
+AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
+               double damping, double looks) {
+  AxisMap map{axis.axis, axis.parity, {}, {}, {}, {}, 0, 0, 0};
+  if (axis.edges.size() < 2) return map;
+  const auto bins = static_cast<Eigen::Index>(axis.edges.size()) - 1;
+  Eigen::MatrixXd columns(basis.e.size(), bins);
+  const std::size_t skip = settling_rows(session.rig);
+  for (Eigen::Index b = 0; b < bins; ++b) {
+    Eigen::Index row = 0;
+    for (std::size_t n = 0; n < session.recordings.size(); ++n) {
+      Influence influence(gains, session.rig.period_s(), damping);
+      for (std::size_t k = 1; k < session.recordings[n].size(); ++k) {
+        const double push = axis.bin[n][k] == b ? axis.direction[n][k] : 0.0;
+        const double e = influence.step(k < skip / 2, push, 0);
+        if (k >= skip) columns(row++, b) = e;
+      }
+    }
+  }
+  columns -= basis.q * (basis.q.transpose() * columns);
+  Eigen::MatrixXd h = columns.transpose() * columns;
+  h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
+  const Eigen::VectorXd g = columns.transpose() * basis.e;
+  const auto solver = h.ldlt();
+  const Eigen::VectorXd x = solver.solve(g);
+  const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(bins, bins));
+  const double ee = basis.e.squaredNorm();
+  map.gain = -0.5 * static_cast<double>(basis.e.size()) * std::log(std::max(1 - x.dot(g) / ee, 1e-9));
+  constexpr double kUpperNormal = 3.1;  // 0.001 per axis, about a dozen axes: 1 in 100 sessions
+  map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
+  // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.
+  const double l = std::log(40 * looks);
+  const double quantile = std::sqrt(2 * l - std::log(4 * std::numbers::pi * l));
+  for (Eigen::Index b = 0; b < bins; ++b) {
+    const auto at = static_cast<std::size_t>(b);
+    map.low.push_back(axis.edges[at]);
+    map.high.push_back(axis.edges[at + 1]);
+    map.push_m_per_s2.push_back(x[b]);
+    map.band_m_per_s2.push_back(quantile * std::sqrt(std::max(inverse(b, b), 0.0) * basis.variance));
+  }
+  return map;
+}
+
+/// Sum over recordings of the normalised periodogram, largest over frequency.
+SpectralLine strongest_line(const Session& session, const Fit& fit) {
+  constexpr double kLowest_hz = 1, kHighest_hz = 150, kStep_hz = 0.1;
+  const std::size_t skip = settling_rows(session.rig);
+  const double highest = std::min(kHighest_hz, 0.4 * session.rig.sample_rate_hz);
+  SpectralLine line;
+  double looks = 0;
+  const double variance = fit.error_rms_m * fit.error_rms_m;
+  for (double f = kLowest_hz; f < highest; f += kStep_hz) {
+    ++looks;
+    double power = 0, recordings = 0;
+    std::size_t first = 0;
+    for (const Recording& r : session.recordings) {
+      if (r.size() <= skip) continue;
+      const std::size_t rows = r.size() - skip;
+      // Goertzel recursion; jitter of the ticks is far below a period of what is looked for.
+      const double w = 2 * std::numbers::pi * f / session.rig.sample_rate_hz;
+      const double c = 2 * std::cos(w);
+      double s1 = 0, s2 = 0;
+      for (std::size_t k = 0; k < rows; ++k) {
+        const double s = fit.error_m[first + k] + c * s1 - s2;
+        s2 = s1, s1 = s;
+      }
+      power += (s1 * s1 + s2 * s2 - c * s1 * s2) / (static_cast<double>(rows) * variance);
+      ++recordings;
+      first += rows;
+    }
+    // Sum of R unit exponentials; Chernoff bound of its tail, in nats.
+    const double gain = power > recordings ? power - recordings - recordings * std::log(power / recordings) : 0;
+    if (gain > line.gain) line = {f, gain};
+  }
+  line.gain = std::max(0.0, line.gain - std::log(std::max(looks, 1.0)));
+  return line;
+}
+
+/// Pairs of repeats have the same physics left out and different noise.
+void compare_repeats(const Session& session, const Fit& fit, Location& location) {
+  constexpr double kSmooth_s = 0.02;
+  const auto span = static_cast<std::size_t>(std::max(1.0, kSmooth_s * session.rig.sample_rate_hz));
+  const std::size_t skip = settling_rows(session.rig);
+  std::vector<std::vector<double>> smooth;
+  std::size_t first = 0;
+  for (const Recording& r : session.recordings) {
+    const std::size_t rows = r.size() > skip ? r.size() - skip : 0;
+    std::vector<double> means;
+    for (std::size_t k = 0; k + span <= rows; k += span) {
+      double sum = 0;
+      for (std::size_t j = 0; j < span; ++j) sum += fit.error_m[first + k + j];
+      means.push_back(sum / static_cast<double>(span));
+    }
+    smooth.push_back(std::move(means));
+    first += rows;
+  }
+  double cross = 0, power = 0, count = 0;
+  const auto group = [&](std::size_t n) {
+    const Recording& r = session.recordings[n];
+    return r.repeat_of.empty() ? r.file : r.repeat_of;
+  };
+  for (std::size_t a = 0; a < smooth.size(); ++a) {
+    for (std::size_t b = a + 1; b < smooth.size(); ++b) {
+      if (group(a) != group(b)) continue;
+      const std::size_t most = std::min(smooth[a].size(), smooth[b].size());
+      for (std::size_t k = 0; k < most; ++k) {
+        cross += smooth[a][k] * smooth[b][k];
+        power += 0.5 * (smooth[a][k] * smooth[a][k] + smooth[b][k] * smooth[b][k]);
+      }
+      count += static_cast<double>(most);
+    }
+  }
+  if (count < 10) return;
+  location.repeat_correlation = cross / power;
+  location.repeat_z = location.repeat_correlation * std::sqrt(count);
+}
+
+/// Errors against the change of the voltage some ticks before: what arrives late shows here.
+void correlate_with_input(const Session& session, const Fit& fit, Location& location) {
+  const std::size_t skip = settling_rows(session.rig);
+  const auto lags = static_cast<std::size_t>(std::max(3.0, 0.03 * session.rig.sample_rate_hz));
+  for (std::size_t lag = 0; lag < lags; ++lag) {
+    double dot = 0, uu = 0, ee = 0;
+    std::size_t first = 0;
+    for (const Recording& r : session.recordings) {
+      if (r.size() <= skip) continue;
+      for (std::size_t k = std::max(skip, lag + 2); k < r.size(); ++k) {
+        const double change = r.u_V[k - lag - 1] - r.u_V[k - lag - 2];
+        const double e = fit.error_m[first + k - skip];
+        dot += change * e, uu += change * change, ee += e * e;
+      }
+      first += r.size() - skip;
+    }
+    const double correlation = uu > 0 && ee > 0 ? dot / std::sqrt(uu * ee) : 0;
+    if (std::abs(correlation) > std::abs(location.lag_correlation)) {
+      location.lag_correlation = correlation;
+      location.lag_s = static_cast<double>(lag) * session.rig.period_s();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> AxisMap::stretch() const {
+  std::vector<double> best;
+  double most = 0;
+  for (std::size_t i = 0; i < low.size();) {
+    std::size_t j = i;
+    double excess = 0;
+    while (j < low.size() && std::abs(push_m_per_s2[j]) > band_m_per_s2[j] &&
+           (j == i || (push_m_per_s2[j] > 0) == (push_m_per_s2[i] > 0))) {
+      const double z = push_m_per_s2[j] / band_m_per_s2[j];
+      excess += z * z;
+      ++j;
+    }
+    if (excess > most) most = excess, best = {low[i], high[j - 1]};
+    i = std::max(j, i + 1);
+  }
+  return best;
+}
+
+Location locate(const Session& session, const Fit& fit, const FitOptions& options, unsigned threads) {
+  Location location;
+  const ObserverGains gains = observer_gains(fit.noise, session.rig, options.damping_per_s);
+  ObserverOptions keep;
+  keep.keep_states = true;
+  std::vector<Observation> seen(session.recordings.size());
+  parallel_for(seen.size(), threads, [&](std::size_t n) {
+    seen[n] = observe(fit.model, gains, session.rig, session.recordings[n], keep);
+  });
+  const std::vector<AxisBins> axes = axes_of(session, seen);
+
+  const auto rows = static_cast<Eigen::Index>(fit.error_m.size());
+  Basis basis;
+  basis.e = Eigen::Map<const Eigen::VectorXd>(fit.error_m.data(), rows);
+  if (options.outlier_m > 0) basis.e = basis.e.cwiseMin(options.outlier_m).cwiseMax(-options.outlier_m);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
+  basis.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
+  basis.e -= basis.q * (basis.q.transpose() * basis.e);
+  basis.variance = basis.e.squaredNorm() / static_cast<double>(rows);
+
+  double looks = 0;
+  for (const AxisBins& axis : axes) looks += static_cast<double>(axis.edges.size());
+  location.axes.resize(axes.size());
+  parallel_for(axes.size(), threads, [&](std::size_t i) {
+    location.axes[i] = map_of(session, axes[i], gains, basis, options.damping_per_s, looks);
+  });
+
+  double power = 0;
+  for (const Observation& o : seen) {
+    for (const double d : o.disturbance_m_per_s2) power += d * d;
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    AxisMap& map = location.axes[i];
+    double explained = 0;
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+      for (const int b : axes[i].bin[n]) {
+        if (b < 0) continue;
+        const double push = map.push_m_per_s2[static_cast<std::size_t>(b)];
+        explained += push * push;
+      }
+    }
+    map.share = power > 0 && !map.flat() ? std::min(1.0, explained / power) : 0;
+  }
+  location.line = strongest_line(session, fit);
+  compare_repeats(session, fit, location);
+  correlate_with_input(session, fit, location);
+  const std::size_t skip = settling_rows(session.rig);
+  std::size_t first = 0;
+  for (const Recording& r : session.recordings) {
+    const std::size_t n = r.size() > skip ? r.size() - skip : 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < n; ++k) sum += fit.error_m[first + k] * fit.error_m[first + k];
+    location.recording_rms_m.push_back(n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0);
+    first += n;
+  }
+  return location;
+}
+
+}  // namespace cartwright
