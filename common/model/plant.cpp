@@ -23,7 +23,7 @@ Growth growth(double z) noexcept {
 
 Plant::Plant(const Model& model, const PlantOptions& options)
     : terms_(model, options.disturbance_active),
-      step_s_(std::min(options.step_s, terms_.longest_step_s)),
+      step_s_(std::min(options.step_s, options.stiff_step_factor * terms_.longest_step_s)),
       heating_start_s_(options.heating_start_s) {}
 
 void Plant::reset(const PlantState& state) {
@@ -57,8 +57,13 @@ void Plant::reset(double position_m, double velocity_m_per_s, double time_s) {
 }
 
 void Plant::correct(double position_m, double velocity_m_per_s) {
-  state_.motor_position_m += position_m - state_.position_m;
-  state_.motor_velocity_m_per_s += velocity_m_per_s - state_.velocity_m_per_s;
+  if (terms_.rigid_backlash && state_.contact == 0) {
+    const double half = 0.5 * terms_.gap;
+    state_.motor_position_m = std::clamp(state_.motor_position_m, position_m - half, position_m + half);
+  } else {
+    state_.motor_position_m += position_m - state_.position_m;
+    state_.motor_velocity_m_per_s += velocity_m_per_s - state_.velocity_m_per_s;
+  }
   state_.position_m = position_m;
   state_.velocity_m_per_s = velocity_m_per_s;
 }

@@ -22,6 +22,8 @@ struct PlantOptions {
   double step_s = 2.5e-4;          ///< greatest inner step; stiff terms choose a smaller one by themselves
   bool disturbance_active = true;  ///< whether this recording is the one with the external disturbance
   double heating_start_s = 0;      ///< time_s at which the motor was cold
+  /// Multiplies the step that stiff terms choose. Observers, corrected every tick, do well with 3.
+  double stiff_step_factor = 1;
 };
 
 /// The cart,
@@ -50,7 +52,8 @@ class Plant {
 
   const PlantState& state() const { return state_; }
 
-  /// Observers correct the cart's state between ticks; a change of velocity moves both masses.
+  /// Observers correct the cart's state between ticks. The motor moves along, except inside a backlash gap, where a
+  /// reading of the cart says nothing of the motor until the gap's end takes it along.
   void correct(double position_m, double velocity_m_per_s);
 
   /// Holds `command_V` for `duration_s`; `push_m_per_s2` is an added acceleration of the cart.

@@ -94,7 +94,10 @@ struct PlantTerms {
     if (has_cogging) a += cogging_amplitude * std::sin(cogging_wavenumber * y + cogging_phase);
     if (has_disturbance) {
       const double x = (time_s - disturbance_start) / disturbance_duration;
-      if (x > 0 && x < 1) a += disturbance_peak * std::sin(std::numbers::pi * x);
+      if (x > 0 && x < 1) {
+        const double sine = std::sin(std::numbers::pi * x);
+        a += disturbance_peak * sine * sine;
+      }
     }
     return a;
   }

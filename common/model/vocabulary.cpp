@@ -42,7 +42,7 @@ constexpr std::array<TermInfo, kTermCount> kTerms{{
      "bursts of counts lost, at a rate, while faster than a speed: the reading jumps back and stays off"},
     {T::presliding_friction, "presliding_friction", "before breakaway friction is an elastic bristle"},
     {T::external_disturbance, "external_disturbance",
-     "a push in one recording only, a half sine: peak sin(pi (t - start)/duration)"},
+     "a push in one recording only that swells and fades: peak sin^2(pi (t - start)/duration)"},
     {T::amplifier_gain_asymmetry, "amplifier_gain_asymmetry",
      "gain differs between signs of u: beta (1 + d/2 sgn u)"},
 }};

@@ -51,7 +51,7 @@ class Explainer {
       if (tried.empty() || tried.front().score() - search.best.score() < kLeastGain) {
         break;
       }
-      Contest contest{tried.front().effects.back(), tried.front().score() - search.best.score(), {}};
+      Contest contest{tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
       search.best = tried.front();
       contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1), std::make_move_iterator(tried.end()));
       search.contests.push_back(std::move(contest));

@@ -23,6 +23,7 @@ struct Explanation {
 struct Contest {
   Term chosen;
   double gain = 0;                       ///< of the chosen over doing without, in nats, net of its numbers
+  Explanation winner;                    ///< with the chosen, as it stood then
   std::vector<Explanation> alternatives;  ///< other terms in its place, best first
 };
 

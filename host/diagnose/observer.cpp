@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kSettling_s = 0.05;
 constexpr double kEagerRatio_per_s2 = 1e5;
+/// Corrected every tick, the plant needs no more than its own shape right: w h = 0.45.
+constexpr double kStiffStepFactor = 3;
 
 /// Slope of the first readings, for recordings that begin in motion.
 double first_velocity(const Rig& rig, const Recording& recording) {
@@ -47,6 +49,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
                    const ObserverOptions& options) {
   PlantOptions plant_options;
   plant_options.step_s = options.step_s;
+  plant_options.stiff_step_factor = kStiffStepFactor;
   plant_options.disturbance_active = model.disturbance_recording == recording.file;
   plant_options.heating_start_s = recording.t_s.front();
   Plant plant(model, plant_options);

@@ -55,7 +55,8 @@ std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const 
         gains, rig, options.damping_per_s,
         [&](std::size_t k) {
           const double x = (static_cast<double>(k) + 0.5) / static_cast<double>(length);
-          return std::pair{x < 1 ? std::sin(std::numbers::pi * x) : 0.0, 0.0};
+          const double sine = x < 1 ? std::sin(std::numbers::pi * x) : 0.0;
+          return std::pair{sine * sine, 0.0};
         },
         length);
     double energy = 0;

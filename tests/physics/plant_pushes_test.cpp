@@ -98,7 +98,7 @@ TEST(ExternalDisturbance, GivesItsImpulseOnceAndOnlyInItsRecording) {
   run(pushed, 0, 0.2);
   EXPECT_EQ(pushed.state().velocity_m_per_s, 0.0);
   run(pushed, 0, 0.1);
-  const double impulse = peak * duration_s * 2 / std::numbers::pi;  // of a half sine
+  const double impulse = peak * duration_s / 2;  // of a squared half sine
   EXPECT_NEAR(pushed.state().velocity_m_per_s, impulse, 1e-9);
   run(pushed, 0, 1);
   EXPECT_NEAR(pushed.state().velocity_m_per_s, impulse, 1e-9);

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "host/cli/command.hpp"
+#include "host/diagnose/diagnosis.hpp"
+#include "host/diagnose/diagnosis_json.hpp"
+#include "host/session/files.hpp"
+
+namespace cartwright::cli {
+namespace {
+
+struct Options {
+  std::string model, session, out;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  bool json = false;
+};
+
+void show_progress(std::string_view what, double share) {
+  std::fprintf(stderr, "\r\033[K[%3.0f %%] %.*s", 100 * share, static_cast<int>(what.size()), what.data());
+  if (share >= 1) std::fprintf(stderr, "\r\033[K");
+}
+
+void print_summary(const Diagnosis& d, const std::string& out) {
+  fmt::print("{}\n", name(d.verdict));
+  for (const Effect& effect : d.effects) {
+    fmt::print("  {} (confidence {:.2f}): {}\n", info(effect.term).name, effect.confidence, effect.statement);
+    for (const auto& [id, e] : effect.parameters) {
+      fmt::print("      {} = {:.5g} [{:.5g}, {:.5g}]\n", info(id).key, e.value, e.low, e.high);
+    }
+  }
+  for (const NominalParameter& p : d.parameters) {
+    fmt::print("  {}: nominal {:.5g}, found {:.5g} [{:.5g}, {:.5g}]\n", dotted_name(p.id), p.nominal, p.refitted.value,
+               p.refitted.low, p.refitted.high);
+  }
+  fmt::print("  0.5 s windows, rms: nominal {:.3g} um, refitted {:.3g} um, with effects {:.3g} um, noise floor {:.3g} um\n",
+             1e6 * d.used.nominal, 1e6 * d.used.refitted, 1e6 * d.used.with_effects, 1e6 * d.noise_floor_m);
+  if (d.unexplained) {
+    fmt::print("  unexplained: {:.0f} % of what is missing; most of it along {}\n", 100 * d.unexplained->share_left,
+               d.unexplained->axis);
+    if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);
+  }
+  for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);
+  fmt::print("  written: {0}/diagnosis.json, {0}/model.toml\n", out);
+}
+
+Outcome run(const Options& options) {
+  const auto model = read_model(options.model);
+  if (!model) return tl::unexpected(model.error());
+  const auto session = read_session(options.session);
+  if (!session) return tl::unexpected(session.error());
+  DiagnoseOptions how;
+  how.threads = options.threads;
+  if (::isatty(STDERR_FILENO)) how.progress = show_progress;
+  const Diagnosis diagnosis = diagnose(*session, *model, how);
+  const std::string json = to_json(diagnosis);
+  const auto made = make_directory(options.out);
+  if (!made) return tl::unexpected(made.error());
+  for (const auto& [file, text] : {std::pair<std::string, std::string>{"diagnosis.json", json},
+                                   {"model.toml", model_with_intervals(diagnosis)}}) {
+    const auto written = write_file(std::filesystem::path(options.out) / file, text);
+    if (!written) return tl::unexpected(written.error());
+  }
+  if (options.json) {
+    std::fputs(json.c_str(), stdout);
+  } else {
+    print_summary(diagnosis, options.out);
+  }
+  return Status::done;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, int& exit_status) {
+  CLI::App* command =
+      app.add_subcommand("diagnose", "Find where a model and recordings differ, and what physics was left out");
+  command->footer(
+      "Example:\n"
+      "  cartwright diagnose --model nominal.toml --session rig/monday --out rig/monday-diagnosis\n"
+      "  cartwright evaluate --model rig/monday-diagnosis/model.toml --session rig/tuesday --out /tmp/check");
+  auto options = std::make_shared<Options>();
+  command->add_option("--model", options->model, "nominal model (TOML)")->required();
+  command->add_option("--session", options->session, "directory with session.toml")->required();
+  command->add_option("--out", options->out, "directory for diagnosis.json, model.toml and report.html")->required();
+  command->add_option("--threads", options->threads, "threads to use")->check(CLI::Range(1u, 256u))->capture_default_str();
+  command->add_flag("--json", options->json, "print diagnosis.json on standard output");
+  on_run(command, exit_status, [options] { return run(*options); });
+}
+
+}  // namespace cartwright::cli

@@ -1,0 +1,352 @@
+#include "host/diagnose/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "host/diagnose/statement.hpp"
+#include "host/diagnose/surrogate.hpp"
+#include "host/diagnose/window_errors.hpp"
+
+namespace cartwright {
+namespace {
+
+using P = Parameter;
+
+/// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
+constexpr double kLeastParameterChange = 0.08;
+/// More than this share of what was missing still missing: the best candidate is refused.
+constexpr double kMostLeftOver = 0.2;
+/// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the noise
+/// free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
+constexpr double kGainOverPromise = 5.0;
+/// Two terms are one class when their likelihoods differ by less than chance would make them.
+constexpr double kEquivalentZ = 2.5;
+constexpr double kEquivalentNats = 10;
+constexpr double kNormal95 = 1.96;
+
+double relative_change(double from, double to) { return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0); }
+
+Estimate estimate(const Fit& fit, Parameter id) {
+  const double half = kNormal95 * fit.standard_error(id);
+  const ParameterInfo& range = info(id);
+  const double value = fit.model[id];
+  return {value, std::max(value - half, range.lower), std::min(value + half, range.upper)};
+}
+
+/// Gain of the structure that a location map still shows, in nats.
+double structure_left(const Location& location) {
+  double most = 0;
+  for (const AxisMap& map : location.axes) {
+    if (!map.flat()) most = std::max(most, map.gain);
+  }
+  if (location.line.gain > 10) most = std::max(most, location.line.gain);
+  return most;
+}
+
+Where where_of(const Location& location) {
+  Where where{{"time_s", {}}, {"position_m", {}}, {"velocity_m_per_s", {}}, {"voltage_V", {}}, {"frequency_hz", {}},
+              {"after_reversal_m", {}}};
+  for (const AxisMap& map : location.axes) {
+    if (map.flat() || !where.contains(map.axis)) continue;
+    if (const auto stretch = map.stretch(); !stretch.empty()) where[map.axis] = stretch;
+  }
+  if (location.line.gain > 10) where["frequency_hz"] = {location.line.frequency_hz, location.line.frequency_hz};
+  return where;
+}
+
+/// How sure one explanation is to be better than another: the sum of paired block differences over its spread.
+double paired_z(const Fit& better, const Fit& worse) {
+  const std::size_t blocks = std::min(better.block_loss_m2.size(), worse.block_loss_m2.size());
+  const double variance = better.error_rms_m * better.error_rms_m;
+  double sum = 0, squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double d = (worse.block_loss_m2[b] - better.block_loss_m2[b]) / (2 * variance);
+    sum += d;
+    squares += d * d;
+  }
+  return squares > 0 ? sum / std::sqrt(squares) : 0;
+}
+
+/// The recording that is kept out of everything: of a kind that is there more than once, and not a repeat, which the
+/// noise floor needs.
+std::vector<std::size_t> choose_held_out(const Session& session) {
+  constexpr std::size_t kLeastRecordings = 4;
+  if (session.recordings.size() < kLeastRecordings) return {};
+  const auto repeated = [&](const Recording& r) {
+    return !r.repeat_of.empty() || std::any_of(session.recordings.begin(), session.recordings.end(),
+                                               [&](const Recording& o) { return o.repeat_of == r.file; });
+  };
+  for (const bool repeats_too : {false, true}) {
+    for (std::size_t n = session.recordings.size(); n-- > 0;) {
+      const Recording& r = session.recordings[n];
+      const auto like = std::count_if(session.recordings.begin(), session.recordings.end(),
+                                      [&](const Recording& o) { return o.experiment == r.experiment; });
+      if (like > 1 && (repeats_too || !repeated(r)) && r.experiment != "relay") return {n};
+    }
+  }
+  return {session.recordings.size() - 1};
+}
+
+Session without(const Session& session, const std::vector<std::size_t>& out) {
+  Session kept{session.rig, {}};
+  for (std::size_t n = 0; n < session.recordings.size(); ++n) {
+    if (std::find(out.begin(), out.end(), n) == out.end()) kept.recordings.push_back(session.recordings[n]);
+  }
+  return kept;
+}
+
+Session only(const Session& session, const std::vector<std::size_t>& chosen) {
+  Session kept{session.rig, {}};
+  for (const std::size_t n : chosen) kept.recordings.push_back(session.recordings[n]);
+  return kept;
+}
+
+/// Burst, rate and speed of lost counts, read off the bursts themselves.
+std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session, const std::vector<ReadingJump>& jumps,
+                                                        Model& model) {
+  const double count = session.rig.encoder_resolution_m;
+  const double n = static_cast<double>(jumps.size());
+  double sum = 0, squares = 0, slowest = 1e9, second = 1e9;
+  for (const ReadingJump& jump : jumps) {
+    const double size = std::abs(jump.step_m) / count;
+    sum += size, squares += size * size;
+    const Recording& r = session.recordings[jump.recording];
+    const std::size_t a = jump.row > 11 ? jump.row - 11 : 0, b = jump.row - 1;
+    const double speed = b > a ? std::abs(r.y_m[b] - r.y_m[a]) / (r.t_s[b] - r.t_s[a]) : 0;
+    if (speed < slowest) second = slowest, slowest = speed;
+    else second = std::min(second, speed);
+  }
+  const double mean = sum / n, spread = n > 1 ? std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1)) : mean;
+  double fast_s = 0;
+  for (const Recording& r : session.recordings) {
+    for (std::size_t k = 10; k < r.size(); ++k) {
+      const double speed = std::abs(r.y_m[k] - r.y_m[k - 10]) / (r.t_s[k] - r.t_s[k - 10]);
+      if (speed >= slowest) fast_s += r.t_s[k] - r.t_s[k - 1];
+    }
+  }
+  const double rate = fast_s > 0 ? n / fast_s : 0, rate_spread = fast_s > 0 ? std::sqrt(n) / fast_s : 0;
+  model.set(P::missed_burst, mean).set(P::missed_rate, rate).set(P::missed_speed, slowest);
+  return {{P::missed_burst, {mean, mean - kNormal95 * spread, mean + kNormal95 * spread}},
+          {P::missed_rate, {rate, std::max(0.0, rate - kNormal95 * rate_spread), rate + kNormal95 * rate_spread}},
+          // The threshold lies below the slowest burst, by about the spacing of the slow ones.
+          {P::missed_speed, {slowest, std::max(0.0, slowest - 3 * (second - slowest) - 0.1 * slowest), slowest}}};
+}
+
+class Diagnostician {
+ public:
+  Diagnostician(const Session& session, const Model& nominal, const DiagnoseOptions& options)
+      : session_(session), nominal_(nominal), options_(options) {}
+
+  Diagnosis run() {
+    const std::vector<std::size_t> held = choose_held_out(session_);
+    const Session used = without(session_, held);
+    for (const std::size_t n : held) result_.held_out_recordings.push_back(session_.recordings[n].file);
+    SearchOptions search;
+    search.threads = options_.threads;
+    search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
+    result_.search = explain(used, nominal_, search);
+    const Search& found = result_.search;
+
+    report("locating what is left", 0.82);
+    FitOptions fit_options;
+    fit_options.damping_per_s = linear_damping(nominal_);
+    const Session repaired = without_jumps(used, found.best.jumps);
+    result_.before = locate(used, found.refitted.fit, fit_options, options_.threads);
+    result_.after = found.contests.empty() ? result_.before
+                                           : locate(repaired, found.best.fit, fit_options, options_.threads);
+    result_.model = found.best.fit.model;
+    result_.refitted = found.refitted.fit.model;
+
+    report("replaying windows", 0.88);
+    judge();
+    measure(used, held, fit_options);
+    name_effects(used);
+    name_parameters();
+    remark();
+    report("done", 1);
+    return std::move(result_);
+  }
+
+ private:
+  void report(std::string_view what, double share) const {
+    if (options_.progress) options_.progress(what, share);
+  }
+
+  void judge() {
+    const Search& found = result_.search;
+    const double left = kGainOverPromise * structure_left(result_.after);
+    const double gained = found.best.score() - found.refitted.score();
+    const double share_left = left > 0 ? left / (left + std::max(gained, 0.0)) : 0;
+    const bool refused = left > 0 && share_left > kMostLeftOver;
+    if (left > 0 && (refused || share_left > 0.05)) describe_left_over(share_left, refused);
+    if (refused) {
+      result_.verdict = Verdict::unexplained;
+      result_.model = found.refitted.fit.model;
+    } else if (!found.contests.empty()) {
+      result_.verdict = Verdict::missing_physics;
+    } else {
+      result_.verdict = values_changed() ? Verdict::parameters_only : Verdict::no_mismatch;
+    }
+  }
+
+  bool values_changed() const {
+    const Fit& fit = result_.search.refitted.fit;
+    return std::any_of(fit.free.begin(), fit.free.end(), [&](const FreeParameter& p) {
+      const double change = std::abs(fit.model[p.id] - nominal_[p.id]);
+      return relative_change(nominal_[p.id], fit.model[p.id]) > kLeastParameterChange &&
+             change > kNormal95 * fit.standard_error(p.id);
+    });
+  }
+
+  void describe_left_over(double share_left, bool refused) {
+    Unexplained left;
+    left.share_left = share_left;
+    left.where = where_of(result_.after);
+    left.line = result_.after.line;
+    const auto carrier = std::max_element(result_.after.axes.begin(), result_.after.axes.end(),
+                                          [](const AxisMap& a, const AxisMap& b) {
+                                            return a.gain - a.bar < b.gain - b.bar;
+                                          });
+    if (carrier != result_.after.axes.end()) left.axis = carrier->axis, left.curve = *carrier;
+    const Search& found = result_.search;
+    if (!found.contests.empty()) {
+      left.closest = found.contests.front().chosen;
+    } else if (!found.promises.empty()) {
+      left.closest = found.promises.front().term;
+    }
+    if (left.closest && refused) {
+      left.why_refused = fmt::format(
+          "{} comes closest, but with it {:.0f} % of what the model misses is still there, far above chance",
+          info(*left.closest).name, 100 * share_left);
+    }
+    result_.unexplained = std::move(left);
+  }
+
+  void measure(const Session& used, const std::vector<std::size_t>& held, const FitOptions& fit_options) {
+    const Search& found = result_.search;
+    const Session repaired = without_jumps(used, found.best.jumps);
+    const auto errors = [&](const Session& raw, const Session& mended) {
+      WindowErrors w;
+      w.nominal = window_rmse_m(nominal_, raw, options_.threads);
+      w.refitted = window_rmse_m(found.refitted.fit.model, raw, options_.threads);
+      w.with_effects = result_.verdict == Verdict::missing_physics
+                           ? window_rmse_m(found.best.fit.model, mended, options_.threads)
+                           : w.refitted;
+      return w;
+    };
+    result_.used = errors(used, repaired);
+    if (!held.empty()) {
+      const Session out = only(session_, held);
+      result_.held_out = errors(out, out);
+    }
+    // The floor: the same windows on a cart that is exactly the model found, with the noise found.
+    const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options.damping_per_s);
+    const Session twin = surrogate(used, found.best.fit.model, noise, 1);
+    double floor = window_rmse_m(found.best.fit.model, twin, options_.threads);
+    const double systematic = result_.after.repeat_z > 4 ? std::clamp(result_.after.repeat_correlation, 0.0, 1.0) : 0;
+    if (systematic > 0) {
+      // What repeats have in common is no noise.
+      floor = std::sqrt(floor * floor * (1 - systematic) + noise.reading_m * noise.reading_m * systematic);
+    }
+    result_.noise_floor_m = std::min(floor, result_.used.with_effects);
+  }
+
+  void name_effects(const Session& used) {
+    if (result_.verdict != Verdict::missing_physics) return;
+    const Search& found = result_.search;
+    double gains = 0;
+    for (const Contest& contest : found.contests) gains += contest.gain;
+    const double floor = result_.noise_floor_m * result_.noise_floor_m;
+    const double excess = result_.used.refitted * result_.used.refitted - floor;
+    const double removed = excess > 0 ? 1 - (result_.used.with_effects * result_.used.with_effects - floor) / excess : 0;
+    const Where where = where_of(result_.before);
+    for (const Contest& contest : found.contests) {
+      Effect effect{contest.chosen, 0, {}, {}, {}, 0, contest.gain, where, ""};
+      if (contest.chosen == Term::encoder_missed_counts) {
+        effect.parameters = lost_counts(used, found.best.jumps, result_.model);
+      } else {
+        for (const FreeParameter& p : found.best.fit.free) {
+          if (info(p.id).term != contest.chosen) continue;
+          effect.parameters.emplace_back(p.id, estimate(found.best.fit, p.id));
+          if (found.best.fit.at_bound(p.id)) effect.at_bound.push_back(p.id);
+        }
+      }
+      effect.share_of_excess_error_removed = std::clamp(removed, 0.0, 1.0) * contest.gain / gains;
+      compare(contest, effect);
+      effect.statement = statement(contest.chosen, result_.model);
+      result_.effects.push_back(std::move(effect));
+    }
+    std::stable_sort(result_.effects.begin(), result_.effects.end(),
+                     [](const Effect& a, const Effect& b) { return a.gain > b.gain; });
+    std::stable_sort(result_.runner_up.begin(), result_.runner_up.end(),
+                     [](const RunnerUp& a, const RunnerUp& b) { return a.score_behind < b.score_behind; });
+  }
+
+  /// The chosen against the others that were fitted in its place.
+  void compare(const Contest& contest, Effect& effect) {
+    const double left = result_.unexplained ? result_.unexplained->share_left : 0;
+    // The score of the explanation as it stood when this effect was chosen.
+    double others = 0;
+    const Explanation* winner = &contest.winner;
+    for (const Explanation& other : contest.alternatives) {
+      const double behind = winner->score() - other.score();
+      const double z = paired_z(winner->fit, other.fit);
+      const bool same = behind < kEquivalentNats && z < kEquivalentZ;
+      const double weight = std::exp(-std::min(behind / kGainOverPromise, 50.0));
+      others += same ? 0 : weight;
+      if (same) effect.equivalent.push_back(other.effects.back());
+      if (result_.search.best.has(other.effects.back())) continue;
+      result_.runner_up.push_back({other.effects.back(), weight / (1 + weight), behind});
+    }
+    const double real = 1 - std::exp(-contest.gain / (2 * kLeastGain));
+    effect.confidence = real * (1 - 0.5 * left) / (1 + others);
+    if (!effect.at_bound.empty()) effect.confidence *= 0.9;
+  }
+
+  void name_parameters() {
+    const Fit& refit = result_.search.refitted.fit;
+    const Fit& fit = result_.verdict == Verdict::missing_physics ? result_.search.best.fit : refit;
+    for (const FreeParameter& p : refit.free) {
+      result_.parameters.push_back({p.id, nominal_[p.id], estimate(fit, p.id), refit.model[p.id]});
+    }
+  }
+
+  void remark() {
+    const auto& list = session_.recordings;
+    if (list.size() == 1) result_.remarks.push_back("One recording only: nothing could be held out.");
+    if (std::none_of(list.begin(), list.end(), [](const Recording& r) { return !r.repeat_of.empty(); })) {
+      result_.remarks.push_back("No repeats: the noise floor rests on the fitted noise alone.");
+    }
+    const auto foreign = std::count_if(list.begin(), list.end(), [](const Recording& r) { return !r.has_controller(); });
+    if (foreign > 0) {
+      result_.remarks.push_back(fmt::format("{} of {} recordings come without a control law: judged from the recorded voltage.",
+                                            foreign, list.size()));
+    }
+  }
+
+  const Session& session_;
+  const Model& nominal_;
+  const DiagnoseOptions& options_;
+  Diagnosis result_;
+};
+
+}  // namespace
+
+std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_mismatch: return "no_mismatch";
+    case Verdict::parameters_only: return "parameters_only";
+    case Verdict::missing_physics: return "missing_physics";
+    case Verdict::unexplained: return "unexplained";
+  }
+  return "";
+}
+
+Diagnosis diagnose(const Session& session, const Model& nominal, const DiagnoseOptions& options) {
+  return Diagnostician(session, nominal, options).run();
+}
+
+}  // namespace cartwright

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/diagnose/explain.hpp"
+#include "host/diagnose/locate.hpp"
+#include "host/statistics/estimate.hpp"
+
+namespace cartwright {
+
+enum class Verdict { no_mismatch, parameters_only, missing_physics, unexplained };
+std::string_view name(Verdict verdict);
+
+/// Axis name to the widest stretch [low, high] on which the missing push stands outside its band; empty: flat.
+using Where = std::map<std::string, std::vector<double>>;
+
+struct Effect {
+  Term term;
+  double confidence = 0;
+  std::vector<Term> equivalent;  ///< terms this data cannot tell from it
+  std::vector<std::pair<Parameter, Estimate>> parameters;
+  std::vector<Parameter> at_bound;
+  double share_of_excess_error_removed = 0;
+  double gain = 0;  ///< nats, net of its numbers
+  Where where;
+  std::string statement;
+};
+
+struct RunnerUp {
+  Term term;
+  double confidence = 0;
+  double score_behind = 0;  ///< nats behind the chosen
+};
+
+struct NominalParameter {
+  Parameter id;
+  double nominal = 0;
+  Estimate refitted;
+  double with_nominal_terms_only = 0;
+};
+
+/// Root-mean-square error of 0.5 s windows [m].
+struct WindowErrors {
+  double nominal = 0, refitted = 0, with_effects = 0;
+};
+
+struct Unexplained {
+  double share_left = 0;       ///< of what was missing, after the best candidate
+  Where where;
+  std::string axis;            ///< the axis that carries most of it
+  AxisMap curve;               ///< the missing push along that axis, with its band
+  SpectralLine line;
+  std::optional<Term> closest;
+  std::string why_refused;
+};
+
+struct NextExperiment {
+  std::string experiment;   ///< what to run, as `cartwright device run` takes it
+  std::string separates;    ///< which candidates
+  double expected_nats = 0;
+  double chance = 0;        ///< that it will decide
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::no_mismatch;
+  std::vector<Effect> effects;  ///< strongest first
+  std::vector<RunnerUp> runner_up;
+  std::vector<NominalParameter> parameters;
+  WindowErrors used, held_out;
+  double noise_floor_m = 0;
+  std::vector<std::string> held_out_recordings;
+  std::optional<Unexplained> unexplained;
+  std::optional<NextExperiment> next_experiment;
+  Model model;     ///< nominal terms refitted, with the effects
+  Model refitted;  ///< nominal terms refitted alone
+  Location before, after;  ///< of the refitted nominal model; of the final one
+  std::vector<std::string> remarks;  ///< what the data cannot support, in words
+  Search search;
+};
+
+struct DiagnoseOptions {
+  unsigned threads = 2;
+  std::function<void(std::string_view what, double share_done)> progress;
+};
+
+/// Compares a nominal model with a session: where they differ, what physics was left out, the model with it, and how
+/// much better that predicts recordings kept out of everything.
+Diagnosis diagnose(const Session& session, const Model& nominal, const DiagnoseOptions& options = {});
+
+}  // namespace cartwright
