@@ -33,14 +33,16 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     }
   }
   for (const NominalParameter& p : d.parameters) {
-    fmt::print("  {}: nominal {:.5g}, found {:.5g} [{:.5g}, {:.5g}]\n", dotted_name(p.id), p.nominal, p.refitted.value,
-               p.refitted.low, p.refitted.high);
+    fmt::print("  {}: nominal {:.5g}, found {:.5g} [{:.5g}, {:.5g}]\n", dotted_name(p.id), p.nominal,
+               p.refitted.value, p.refitted.low, p.refitted.high);
   }
-  fmt::print("  0.5 s windows, rms: nominal {:.3g} um, refitted {:.3g} um, with effects {:.3g} um, noise floor {:.3g} um\n",
-             1e6 * d.used.nominal, 1e6 * d.used.refitted, 1e6 * d.used.with_effects, 1e6 * d.noise_floor_m);
+  fmt::print(
+      "  0.5 s windows, rms: nominal {:.3g} um, refitted {:.3g} um, with effects {:.3g} um, noise floor "
+      "{:.3g} um\n",
+      1e6 * d.used.nominal, 1e6 * d.used.refitted, 1e6 * d.used.with_effects, 1e6 * d.noise_floor_m);
   if (d.unexplained) {
-    fmt::print("  unexplained: {:.0f} % of what is missing; most of it along {}\n", 100 * d.unexplained->share_left,
-               d.unexplained->axis);
+    fmt::print("  unexplained: {:.0f} % of what is missing; most of it along {}\n",
+               100 * d.unexplained->share_left, d.unexplained->axis);
     if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);
   }
   for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);
@@ -75,8 +77,8 @@ Outcome run(const Options& options) {
 }  // namespace
 
 void add_diagnose(CLI::App& app, int& exit_status) {
-  CLI::App* command =
-      app.add_subcommand("diagnose", "Find where a model and recordings differ, and what physics was left out");
+  CLI::App* command = app.add_subcommand(
+      "diagnose", "Find where a model and recordings differ, and what physics was left out");
   command->footer(
       "Example:\n"
       "  cartwright diagnose --model nominal.toml --session rig/monday --out rig/monday-diagnosis\n"
@@ -84,8 +86,11 @@ void add_diagnose(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<Options>();
   command->add_option("--model", options->model, "nominal model (TOML)")->required();
   command->add_option("--session", options->session, "directory with session.toml")->required();
-  command->add_option("--out", options->out, "directory for diagnosis.json, model.toml and report.html")->required();
-  command->add_option("--threads", options->threads, "threads to use")->check(CLI::Range(1u, 256u))->capture_default_str();
+  command->add_option("--out", options->out, "directory for diagnosis.json, model.toml and report.html")
+      ->required();
+  command->add_option("--threads", options->threads, "threads to use")
+      ->check(CLI::Range(1u, 256u))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "print diagnosis.json on standard output");
   on_run(command, exit_status, [options] { return run(*options); });
 }

@@ -58,8 +58,8 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
     const Recording& r = session.recordings[n];
     const std::vector<double>& v = seen[n].velocity_m_per_s;
     const std::size_t rows = r.size();
-    for (auto* column : {&time[n], &which[n], &position[n], &velocity[n], &acceleration[n], &voltage[n], &reversal[n],
-                         &everywhere[n]}) {
+    for (auto* column : {&time[n], &which[n], &position[n], &velocity[n], &acceleration[n], &voltage[n],
+                         &reversal[n], &everywhere[n]}) {
       column->assign(rows, kUnusable);
     }
     even[n].assign(rows, 1);

@@ -10,8 +10,8 @@ namespace cartwright {
 /// One axis a mismatch may sit on: the bin of every row, and the direction its push is counted in.
 struct AxisBins {
   std::string axis, parity;
-  std::vector<double> edges;                      ///< bins + 1 of them
-  std::vector<std::vector<int>> bin;              ///< per recording and row; -1: in none
+  std::vector<double> edges;                        ///< bins + 1 of them
+  std::vector<std::vector<int>> bin;                ///< per recording and row; -1: in none
   std::vector<std::vector<signed char>> direction;  ///< per recording and row: factor of the push
 };
 

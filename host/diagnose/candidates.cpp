@@ -58,13 +58,23 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
     free.upper = std::min(free.upper, upper);
   };
   switch (parameter) {
-    case P::voltage_gain: free.scale = std::abs(model[P::voltage_gain]); break;
+    case P::voltage_gain:
+      free.scale = std::abs(model[P::voltage_gain]);
+      break;
     case P::viscous_coefficient:
     case P::exponential_alpha1:
-    case P::exponential_gamma: free.scale = drive / speed; break;
-    case P::exponential_alpha2: logarithmic(0.3 / facts.most_speed_m_per_s, 300 / facts.most_speed_m_per_s); break;
-    case P::drag_coefficient: free.scale = drive / (speed * speed); break;
-    case P::spring_stiffness: free.scale = drive / travel; break;
+    case P::exponential_gamma:
+      free.scale = drive / speed;
+      break;
+    case P::exponential_alpha2:
+      logarithmic(0.3 / facts.most_speed_m_per_s, 300 / facts.most_speed_m_per_s);
+      break;
+    case P::drag_coefficient:
+      free.scale = drive / (speed * speed);
+      break;
+    case P::spring_stiffness:
+      free.scale = drive / travel;
+      break;
     case P::spring_neutral:
       free.scale = travel;
       free.lower = facts.position_low_m - travel;
@@ -75,23 +85,37 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
     case P::constant_acceleration:
     case P::spot_peak:
     case P::cogging_amplitude:
-    case P::disturbance_peak: free.scale = drive; break;
-    case P::stribeck_speed: logarithmic(0.003 * facts.most_speed_m_per_s, facts.most_speed_m_per_s); break;
+    case P::disturbance_peak:
+      free.scale = drive;
+      break;
+    case P::stribeck_speed:
+      logarithmic(0.003 * facts.most_speed_m_per_s, facts.most_speed_m_per_s);
+      break;
     case P::spot_centre:
       free.scale = 0.1 * travel;
       free.lower = facts.position_low_m;
       free.upper = facts.position_high_m;
       break;
-    case P::spot_width: logarithmic(0.003 * travel, 0.5 * travel); break;
+    case P::spot_width:
+      logarithmic(0.003 * travel, 0.5 * travel);
+      break;
     case P::cogging_period:
-    case P::eccentricity_period: logarithmic(1e-3 * travel, 2 * travel); break;
-    case P::eccentricity_amplitude: free.scale = 1e-4; break;
+    case P::eccentricity_period:
+      logarithmic(1e-3 * travel, 2 * travel);
+      break;
+    case P::eccentricity_amplitude:
+      free.scale = 1e-4;
+      break;
     case P::backlash_gap:
       free.scale = 1e-4;
       free.upper = 0.1 * travel;
       break;
-    case P::dead_zone_half_width: free.scale = 0.1 * facts.typical_voltage_V; break;
-    case P::saturation_limit: logarithmic(0.02 * facts.most_voltage_V, 1.5 * facts.most_voltage_V); break;
+    case P::dead_zone_half_width:
+      free.scale = 0.1 * facts.typical_voltage_V;
+      break;
+    case P::saturation_limit:
+      logarithmic(0.02 * facts.most_voltage_V, 1.5 * facts.most_voltage_V);
+      break;
     case P::current_limit:
       logarithmic(0.02 * std::abs(model[P::voltage_gain]) * facts.most_voltage_V,
                   2 * std::abs(model[P::voltage_gain]) * facts.most_voltage_V);
@@ -101,20 +125,36 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       free.scale = 1e-3;
       free.upper = 0.05;
       break;
-    case P::coupling_resonance: logarithmic(2, 100); break;
-    case P::coupling_damping_ratio: logarithmic(1e-3, 2); break;
+    case P::coupling_resonance:
+      logarithmic(2, 100);
+      break;
+    case P::coupling_damping_ratio:
+      logarithmic(1e-3, 2);
+      break;
     case P::coupling_load_share:
     case P::backlash_load_share:
       free.scale = 0.1;
       free.lower = 0.03;
       free.upper = 0.97;
       break;
-    case P::heating_gain_loss: free.scale = 0.1; break;
-    case P::heating_time_constant: logarithmic(0.05, 10 * facts.longest_recording_s); break;
-    case P::presliding_stiffness: logarithmic(1e2, 1e6); break;
-    case P::disturbance_duration: logarithmic(0.005, facts.longest_recording_s); break;
-    case P::disturbance_start: free.scale = 0.1; break;
-    default: free.scale = 0.1; break;
+    case P::heating_gain_loss:
+      free.scale = 0.1;
+      break;
+    case P::heating_time_constant:
+      logarithmic(0.05, 10 * facts.longest_recording_s);
+      break;
+    case P::presliding_stiffness:
+      logarithmic(1e2, 1e6);
+      break;
+    case P::disturbance_duration:
+      logarithmic(0.005, facts.longest_recording_s);
+      break;
+    case P::disturbance_start:
+      free.scale = 0.1;
+      break;
+    default:
+      free.scale = 0.1;
+      break;
   }
   return free;
 }
@@ -162,7 +202,8 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   std::vector<std::vector<std::pair<P, double>>> springs;
   const double middle = 0.5 * (facts.position_low_m + facts.position_high_m);
   for (const double offset : {0.0, 0.3, -0.3}) {
-    springs.push_back({{P::spring_stiffness, 0.05 * drive / travel}, {P::spring_neutral, middle + offset * travel}});
+    springs.push_back(
+        {{P::spring_stiffness, 0.05 * drive / travel}, {P::spring_neutral, middle + offset * travel}});
   }
   add(T::cable_spring, {P::spring_stiffness, P::spring_neutral}, springs);
   add(T::input_dead_zone, {P::dead_zone_half_width},
@@ -175,14 +216,17 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   add(T::voltage_saturation, {P::saturation_limit}, saturations);
   add(T::armature_lag, {P::armature_time_constant},
       {{{P::armature_time_constant, 0.0005}}, {{P::armature_time_constant, 0.003}}});
-  add(T::transport_delay, {P::transport_delay}, {{{P::transport_delay, 0.0005}}, {{P::transport_delay, 0.003}}});
+  add(T::transport_delay, {P::transport_delay},
+      {{{P::transport_delay, 0.0005}}, {{P::transport_delay, 0.003}}});
 
-  std::vector<std::vector<std::pair<P, double>>> stribecks, exponentials, heatings, preslidings, gaps, couplings, spots;
+  std::vector<std::vector<std::pair<P, double>>> stribecks, exponentials, heatings, preslidings, gaps,
+      couplings, spots;
   for (const double share : {0.03, 0.1, 0.3}) {
     const double v = share * facts.most_speed_m_per_s;
     stribecks.push_back({{P::stribeck_excess, 0.03 * drive}, {P::stribeck_speed, v}});
-    exponentials.push_back(
-        {{P::exponential_alpha1, 0.05 * drive / v}, {P::exponential_alpha2, 1 / v}, {P::exponential_gamma, 0}});
+    exponentials.push_back({{P::exponential_alpha1, 0.05 * drive / v},
+                            {P::exponential_alpha2, 1 / v},
+                            {P::exponential_gamma, 0}});
   }
   add(T::stribeck_friction, {P::stribeck_excess, P::stribeck_speed}, stribecks);
   add(T::exponential_damping, {P::exponential_alpha1, P::exponential_alpha2}, exponentials);
@@ -192,7 +236,8 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   }
   add(T::motor_heating, {P::heating_gain_loss, P::heating_time_constant}, heatings);
   if (coulomb) {
-    for (const double stiffness : {3e3, 1e4, 3e4, 1e5}) preslidings.push_back({{P::presliding_stiffness, stiffness}});
+    for (const double stiffness : {3e3, 1e4, 3e4, 1e5})
+      preslidings.push_back({{P::presliding_stiffness, stiffness}});
     add(T::presliding_friction, {P::presliding_stiffness}, preslidings);
   }
   for (const double gap : {1e-4, 3e-4, 1e-3}) {
@@ -201,7 +246,9 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
     }
   }
   add(T::backlash,
-      {P::backlash_gap, P::backlash_load_share, P::backlash_load_friction_share, P::backlash_load_damping_share}, gaps);
+      {P::backlash_gap, P::backlash_load_share, P::backlash_load_friction_share,
+       P::backlash_load_damping_share},
+      gaps);
   for (const double resonance : {5.0, 9.0, 16.0, 28.0, 50.0}) {
     for (const double share : {0.3, 0.6}) {
       couplings.push_back({{P::coupling_resonance, resonance},
@@ -210,13 +257,14 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
     }
   }
   add(T::flexible_coupling,
-      {P::coupling_resonance, P::coupling_damping_ratio, P::coupling_load_share, P::coupling_load_friction_share,
-       P::coupling_load_damping_share},
+      {P::coupling_resonance, P::coupling_damping_ratio, P::coupling_load_share,
+       P::coupling_load_friction_share, P::coupling_load_damping_share},
       couplings);
   constexpr int kSpots = 12;
   for (int i = 0; i < kSpots; ++i) {
     const double centre = facts.position_low_m + (i + 0.5) / kSpots * travel;
-    spots.push_back({{P::spot_peak, 0.1 * drive}, {P::spot_centre, centre}, {P::spot_width, 0.5 / kSpots * travel}});
+    spots.push_back(
+        {{P::spot_peak, 0.1 * drive}, {P::spot_centre, centre}, {P::spot_width, 0.5 / kSpots * travel}});
   }
   add(T::position_dependent_friction, {P::spot_peak, P::spot_centre, P::spot_width}, spots);
   return list;

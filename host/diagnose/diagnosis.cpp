@@ -19,15 +19,17 @@ using P = Parameter;
 constexpr double kLeastParameterChange = 0.08;
 /// More than this share of what was missing still missing: the best candidate is refused.
 constexpr double kMostLeftOver = 0.2;
-/// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the noise
-/// free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
+/// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
+/// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;
 /// Two terms are one class when their likelihoods differ by less than chance would make them.
 constexpr double kEquivalentZ = 2.5;
 constexpr double kEquivalentNats = 10;
 constexpr double kNormal95 = 1.96;
 
-double relative_change(double from, double to) { return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0); }
+double relative_change(double from, double to) {
+  return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
+}
 
 Estimate estimate(const Fit& fit, Parameter id) {
   const double half = kNormal95 * fit.standard_error(id);
@@ -47,17 +49,19 @@ double structure_left(const Location& location) {
 }
 
 Where where_of(const Location& location) {
-  Where where{{"time_s", {}}, {"position_m", {}}, {"velocity_m_per_s", {}}, {"voltage_V", {}}, {"frequency_hz", {}},
-              {"after_reversal_m", {}}};
+  Where where{{"time_s", {}},    {"position_m", {}},   {"velocity_m_per_s", {}},
+              {"voltage_V", {}}, {"frequency_hz", {}}, {"after_reversal_m", {}}};
   for (const AxisMap& map : location.axes) {
     if (map.flat() || !where.contains(map.axis)) continue;
     if (const auto stretch = map.stretch(); !stretch.empty()) where[map.axis] = stretch;
   }
-  if (location.line.gain > 10) where["frequency_hz"] = {location.line.frequency_hz, location.line.frequency_hz};
+  if (location.line.gain > 10)
+    where["frequency_hz"] = {location.line.frequency_hz, location.line.frequency_hz};
   return where;
 }
 
-/// How sure one explanation is to be better than another: the sum of paired block differences over its spread.
+/// How sure one explanation is to be better than another: the sum of paired block differences over its
+/// spread.
 double paired_z(const Fit& better, const Fit& worse) {
   const std::size_t blocks = std::min(better.block_loss_m2.size(), worse.block_loss_m2.size());
   const double variance = better.error_rms_m * better.error_rms_m;
@@ -70,8 +74,8 @@ double paired_z(const Fit& better, const Fit& worse) {
   return squares > 0 ? sum / std::sqrt(squares) : 0;
 }
 
-/// The recording that is kept out of everything: of a kind that is there more than once, and not a repeat, which the
-/// noise floor needs.
+/// The recording that is kept out of everything: of a kind that is there more than once, and not a repeat,
+/// which the noise floor needs.
 std::vector<std::size_t> choose_held_out(const Session& session) {
   constexpr std::size_t kLeastRecordings = 4;
   if (session.recordings.size() < kLeastRecordings) return {};
@@ -105,8 +109,8 @@ Session only(const Session& session, const std::vector<std::size_t>& chosen) {
 }
 
 /// Burst, rate and speed of lost counts, read off the bursts themselves.
-std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session, const std::vector<ReadingJump>& jumps,
-                                                        Model& model) {
+std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session,
+                                                        const std::vector<ReadingJump>& jumps, Model& model) {
   const double count = session.rig.encoder_resolution_m;
   const double n = static_cast<double>(jumps.size());
   double sum = 0, squares = 0, slowest = 1e9, second = 1e9;
@@ -116,10 +120,13 @@ std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session, 
     const Recording& r = session.recordings[jump.recording];
     const std::size_t a = jump.row > 11 ? jump.row - 11 : 0, b = jump.row - 1;
     const double speed = b > a ? std::abs(r.y_m[b] - r.y_m[a]) / (r.t_s[b] - r.t_s[a]) : 0;
-    if (speed < slowest) second = slowest, slowest = speed;
-    else second = std::min(second, speed);
+    if (speed < slowest)
+      second = slowest, slowest = speed;
+    else
+      second = std::min(second, speed);
   }
-  const double mean = sum / n, spread = n > 1 ? std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1)) : mean;
+  const double mean = sum / n,
+               spread = n > 1 ? std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1)) : mean;
   double fast_s = 0;
   for (const Recording& r : session.recordings) {
     for (std::size_t k = 10; k < r.size(); ++k) {
@@ -129,10 +136,11 @@ std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session, 
   }
   const double rate = fast_s > 0 ? n / fast_s : 0, rate_spread = fast_s > 0 ? std::sqrt(n) / fast_s : 0;
   model.set(P::missed_burst, mean).set(P::missed_rate, rate).set(P::missed_speed, slowest);
-  return {{P::missed_burst, {mean, mean - kNormal95 * spread, mean + kNormal95 * spread}},
-          {P::missed_rate, {rate, std::max(0.0, rate - kNormal95 * rate_spread), rate + kNormal95 * rate_spread}},
-          // The threshold lies below the slowest burst, by about the spacing of the slow ones.
-          {P::missed_speed, {slowest, std::max(0.0, slowest - 3 * (second - slowest) - 0.1 * slowest), slowest}}};
+  return {
+      {P::missed_burst, {mean, mean - kNormal95 * spread, mean + kNormal95 * spread}},
+      {P::missed_rate, {rate, std::max(0.0, rate - kNormal95 * rate_spread), rate + kNormal95 * rate_spread}},
+      // The threshold lies below the slowest burst, by about the spacing of the slow ones.
+      {P::missed_speed, {slowest, std::max(0.0, slowest - 3 * (second - slowest) - 0.1 * slowest), slowest}}};
 }
 
 class Diagnostician {
@@ -206,10 +214,9 @@ class Diagnostician {
     left.share_left = share_left;
     left.where = where_of(result_.after);
     left.line = result_.after.line;
-    const auto carrier = std::max_element(result_.after.axes.begin(), result_.after.axes.end(),
-                                          [](const AxisMap& a, const AxisMap& b) {
-                                            return a.gain - a.bar < b.gain - b.bar;
-                                          });
+    const auto carrier =
+        std::max_element(result_.after.axes.begin(), result_.after.axes.end(),
+                         [](const AxisMap& a, const AxisMap& b) { return a.gain - a.bar < b.gain - b.bar; });
     if (carrier != result_.after.axes.end()) left.axis = carrier->axis, left.curve = *carrier;
     const Search& found = result_.search;
     if (!found.contests.empty()) {
@@ -246,7 +253,8 @@ class Diagnostician {
     const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options.damping_per_s);
     const Session twin = surrogate(used, found.best.fit.model, noise, 1);
     double floor = window_rmse_m(found.best.fit.model, twin, options_.threads);
-    const double systematic = result_.after.repeat_z > 4 ? std::clamp(result_.after.repeat_correlation, 0.0, 1.0) : 0;
+    const double systematic =
+        result_.after.repeat_z > 4 ? std::clamp(result_.after.repeat_correlation, 0.0, 1.0) : 0;
     if (systematic > 0) {
       // What repeats have in common is no noise.
       floor = std::sqrt(floor * floor * (1 - systematic) + noise.reading_m * noise.reading_m * systematic);
@@ -261,7 +269,8 @@ class Diagnostician {
     for (const Contest& contest : found.contests) gains += contest.gain;
     const double floor = result_.noise_floor_m * result_.noise_floor_m;
     const double excess = result_.used.refitted * result_.used.refitted - floor;
-    const double removed = excess > 0 ? 1 - (result_.used.with_effects * result_.used.with_effects - floor) / excess : 0;
+    const double removed =
+        excess > 0 ? 1 - (result_.used.with_effects * result_.used.with_effects - floor) / excess : 0;
     const Where where = where_of(result_.before);
     for (const Contest& contest : found.contests) {
       Effect effect{contest.chosen, 0, {}, {}, {}, 0, contest.gain, where, ""};
@@ -320,10 +329,12 @@ class Diagnostician {
     if (std::none_of(list.begin(), list.end(), [](const Recording& r) { return !r.repeat_of.empty(); })) {
       result_.remarks.push_back("No repeats: the noise floor rests on the fitted noise alone.");
     }
-    const auto foreign = std::count_if(list.begin(), list.end(), [](const Recording& r) { return !r.has_controller(); });
+    const auto foreign =
+        std::count_if(list.begin(), list.end(), [](const Recording& r) { return !r.has_controller(); });
     if (foreign > 0) {
-      result_.remarks.push_back(fmt::format("{} of {} recordings come without a control law: judged from the recorded voltage.",
-                                            foreign, list.size()));
+      result_.remarks.push_back(
+          fmt::format("{} of {} recordings come without a control law: judged from the recorded voltage.",
+                      foreign, list.size()));
     }
   }
 
@@ -337,10 +348,14 @@ class Diagnostician {
 
 std::string_view name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::no_mismatch: return "no_mismatch";
-    case Verdict::parameters_only: return "parameters_only";
-    case Verdict::missing_physics: return "missing_physics";
-    case Verdict::unexplained: return "unexplained";
+    case Verdict::no_mismatch:
+      return "no_mismatch";
+    case Verdict::parameters_only:
+      return "parameters_only";
+    case Verdict::missing_physics:
+      return "missing_physics";
+    case Verdict::unexplained:
+      return "unexplained";
   }
   return "";
 }

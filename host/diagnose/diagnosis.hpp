@@ -16,7 +16,8 @@ namespace cartwright {
 enum class Verdict { no_mismatch, parameters_only, missing_physics, unexplained };
 std::string_view name(Verdict verdict);
 
-/// Axis name to the widest stretch [low, high] on which the missing push stands outside its band; empty: flat.
+/// Axis name to the widest stretch [low, high] on which the missing push stands outside its band; empty:
+/// flat.
 using Where = std::map<std::string, std::vector<double>>;
 
 struct Effect {
@@ -50,20 +51,20 @@ struct WindowErrors {
 };
 
 struct Unexplained {
-  double share_left = 0;       ///< of what was missing, after the best candidate
+  double share_left = 0;  ///< of what was missing, after the best candidate
   Where where;
-  std::string axis;            ///< the axis that carries most of it
-  AxisMap curve;               ///< the missing push along that axis, with its band
+  std::string axis;  ///< the axis that carries most of it
+  AxisMap curve;     ///< the missing push along that axis, with its band
   SpectralLine line;
   std::optional<Term> closest;
   std::string why_refused;
 };
 
 struct NextExperiment {
-  std::string experiment;   ///< what to run, as `cartwright device run` takes it
-  std::string separates;    ///< which candidates
+  std::string experiment;  ///< what to run, as `cartwright device run` takes it
+  std::string separates;   ///< which candidates
   double expected_nats = 0;
-  double chance = 0;        ///< that it will decide
+  double chance = 0;  ///< that it will decide
 };
 
 struct Diagnosis {
@@ -76,9 +77,9 @@ struct Diagnosis {
   std::vector<std::string> held_out_recordings;
   std::optional<Unexplained> unexplained;
   std::optional<NextExperiment> next_experiment;
-  Model model;     ///< nominal terms refitted, with the effects
-  Model refitted;  ///< nominal terms refitted alone
-  Location before, after;  ///< of the refitted nominal model; of the final one
+  Model model;                       ///< nominal terms refitted, with the effects
+  Model refitted;                    ///< nominal terms refitted alone
+  Location before, after;            ///< of the refitted nominal model; of the final one
   std::vector<std::string> remarks;  ///< what the data cannot support, in words
   Search search;
 };
@@ -88,8 +89,8 @@ struct DiagnoseOptions {
   std::function<void(std::string_view what, double share_done)> progress;
 };
 
-/// Compares a nominal model with a session: where they differ, what physics was left out, the model with it, and how
-/// much better that predicts recordings kept out of everything.
+/// Compares a nominal model with a session: where they differ, what physics was left out, the model with it,
+/// and how much better that predicts recordings kept out of everything.
 Diagnosis diagnose(const Session& session, const Model& nominal, const DiagnoseOptions& options = {});
 
 }  // namespace cartwright

@@ -12,7 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json numbers(const std::vector<double>& values) {
   Json list = Json::array();
@@ -26,7 +28,8 @@ Json interval(const Estimate& e) {
 
 Json where_json(const Where& where) {
   Json json = Json::object();
-  for (const char* axis : {"time_s", "position_m", "velocity_m_per_s", "voltage_V", "frequency_hz", "after_reversal_m"}) {
+  for (const char* axis :
+       {"time_s", "position_m", "velocity_m_per_s", "voltage_V", "frequency_hz", "after_reversal_m"}) {
     const auto found = where.find(axis);
     json[axis] = numbers(found == where.end() ? std::vector<double>{} : found->second);
   }
@@ -69,11 +72,14 @@ Json map_json(const AxisMap& map) {
 Json location_json(const Location& location) {
   Json axes = Json::array();
   for (const AxisMap& map : location.axes) axes.push_back(map_json(map));
-  return {{"axes", axes},
-          {"line", {{"frequency_hz", number(location.line.frequency_hz)}, {"gain_nats", number(location.line.gain)}}},
-          {"input_lag", {{"lag_s", number(location.lag_s)}, {"correlation", number(location.lag_correlation)}}},
-          {"repeats",
-           {{"correlation", number(location.repeat_correlation)}, {"standard_errors", number(location.repeat_z)}}}};
+  return {
+      {"axes", axes},
+      {"line",
+       {{"frequency_hz", number(location.line.frequency_hz)}, {"gain_nats", number(location.line.gain)}}},
+      {"input_lag", {{"lag_s", number(location.lag_s)}, {"correlation", number(location.lag_correlation)}}},
+      {"repeats",
+       {{"correlation", number(location.repeat_correlation)},
+        {"standard_errors", number(location.repeat_z)}}}};
 }
 
 Json unexplained_json(const std::optional<Unexplained>& left) {
@@ -139,8 +145,10 @@ std::string model_with_intervals(const Diagnosis& d) {
   }
   std::string flags;
   for (const Effect& effect : d.effects) {
-    for (const auto& [id, e] : effect.parameters) text += fmt::format("\"{}\" = [{}, {}]\n", dotted_name(id), e.low, e.high);
-    for (const Parameter id : effect.at_bound) flags += fmt::format("\"{}\" = \"at bound\"\n", dotted_name(id));
+    for (const auto& [id, e] : effect.parameters)
+      text += fmt::format("\"{}\" = [{}, {}]\n", dotted_name(id), e.low, e.high);
+    for (const Parameter id : effect.at_bound)
+      flags += fmt::format("\"{}\" = \"at bound\"\n", dotted_name(id));
     for (const Term term : effect.equivalent) {
       flags += fmt::format("\"{}\" = \"not separable from {}\"\n", info(effect.term).name, info(term).name);
     }

@@ -6,11 +6,12 @@
 
 namespace cartwright {
 
-/// `diagnosis.json`: verdict, effects, parameters, fit, what is unexplained, the maps behind it, and what to run next.
+/// `diagnosis.json`: verdict, effects, parameters, fit, what is unexplained, the maps behind it, and what to
+/// run next.
 std::string to_json(const Diagnosis& diagnosis);
 
-/// `model.toml`: the model, and beside it each fitted number's interval and flags in a table that readers of models
-/// pass over.
+/// `model.toml`: the model, and beside it each fitted number's interval and flags in a table that readers of
+/// models pass over.
 std::string model_with_intervals(const Diagnosis& diagnosis);
 
 }  // namespace cartwright

@@ -9,11 +9,11 @@
 namespace cartwright {
 namespace {
 
-constexpr std::size_t kTermsFitted = 6;       // most terms fitted after a screening
-constexpr std::size_t kStartsFitted = 3;      // most starts of one term
-constexpr double kLeastPromise = 4.0;         // nats
-constexpr double kLeastShareOfBest = 0.01;    // of the best promise
-constexpr double kOutlierOverNoise = 6.0;     // errors beyond this many noise sizes count linearly
+constexpr std::size_t kTermsFitted = 6;     // most terms fitted after a screening
+constexpr std::size_t kStartsFitted = 3;    // most starts of one term
+constexpr double kLeastPromise = 4.0;       // nats
+constexpr double kLeastShareOfBest = 0.01;  // of the best promise
+constexpr double kOutlierOverNoise = 6.0;   // errors beyond this many noise sizes count linearly
 
 double robust_size(const std::vector<double>& errors) {
   std::vector<double> sizes;
@@ -51,9 +51,11 @@ class Explainer {
       if (tried.empty() || tried.front().score() - search.best.score() < kLeastGain) {
         break;
       }
-      Contest contest{tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
+      Contest contest{
+          tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
       search.best = tried.front();
-      contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1), std::make_move_iterator(tried.end()));
+      contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
+                                  std::make_move_iterator(tried.end()));
       search.contests.push_back(std::move(contest));
       drop_redundant(search);
     }
@@ -72,8 +74,8 @@ class Explainer {
   std::vector<Explanation> next_effects(Search& search, std::size_t stage) {
     const Explanation& base = search.best;
     const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
-    std::vector<Promise> promises = screen(data, base.fit, candidates(base.fit.model, facts_), fit_options_,
-                                           options_.threads);
+    std::vector<Promise> promises =
+        screen(data, base.fit, candidates(base.fit.model, facts_), fit_options_, options_.threads);
     for (const auto& found : {scan_periods(data, base.fit, facts_, fit_options_, options_.threads),
                               scan_pushes(data, base.fit, facts_, fit_options_)}) {
       promises.insert(promises.end(), found.begin(), found.end());
@@ -177,7 +179,9 @@ double Explanation::score() const {
   return fit.log_likelihood - kCostPerNumber * numbers;
 }
 
-bool Explanation::has(Term term) const { return std::find(effects.begin(), effects.end(), term) != effects.end(); }
+bool Explanation::has(Term term) const {
+  return std::find(effects.begin(), effects.end(), term) != effects.end();
+}
 
 Search explain(const Session& session, const Model& nominal, const SearchOptions& options) {
   return Explainer(session, nominal, options).run();

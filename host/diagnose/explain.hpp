@@ -22,8 +22,8 @@ struct Explanation {
 /// What stood beside an effect when it was chosen.
 struct Contest {
   Term chosen;
-  double gain = 0;                       ///< of the chosen over doing without, in nats, net of its numbers
-  Explanation winner;                    ///< with the chosen, as it stood then
+  double gain = 0;                        ///< of the chosen over doing without, in nats, net of its numbers
+  Explanation winner;                     ///< with the chosen, as it stood then
   std::vector<Explanation> alternatives;  ///< other terms in its place, best first
 };
 
@@ -41,15 +41,16 @@ struct SearchOptions {
   std::function<void(std::string_view what, double share_done)> progress;
 };
 
-/// Cost of one fitted number [nats]: half the log of the number of independent errors a session of a minute holds
-/// (its blocks of 0.25 s times a few), the Bayesian information criterion's price.
+/// Cost of one fitted number [nats]: half the log of the number of independent errors a session of a minute
+/// holds (its blocks of 0.25 s times a few), the Bayesian information criterion's price.
 inline constexpr double kCostPerNumber = 4.0;
-/// An effect must gain this much, net of its numbers. Over some 300 looks (terms, starts, periods, places) at noise
-/// alone the best gains about log(300) = 6; twice that leaves room for noise that is not quite white.
+/// An effect must gain this much, net of its numbers. Over some 300 looks (terms, starts, periods, places) at
+/// noise alone the best gains about log(300) = 6; twice that leaves room for noise that is not quite white.
 inline constexpr double kLeastGain = 12.0;
 
 /// Refits the nominal model, then adds one effect at a time from the whole vocabulary, each time the one that
-/// explains most with everything refitted, until none is worth its numbers; then drops what has become redundant.
+/// explains most with everything refitted, until none is worth its numbers; then drops what has become
+/// redundant.
 Search explain(const Session& session, const Model& nominal, const SearchOptions& options = {});
 
 }  // namespace cartwright

@@ -27,8 +27,8 @@ double loss_slope_half(double error, double outlier) {
 }
 
 NoiseModel bounded(NoiseModel noise) {
-  noise.correlation_time_s =
-      std::clamp(noise.correlation_time_s, NoiseModel::kShortestCorrelation_s, NoiseModel::kLongestCorrelation_s);
+  noise.correlation_time_s = std::clamp(noise.correlation_time_s, NoiseModel::kShortestCorrelation_s,
+                                        NoiseModel::kLongestCorrelation_s);
   noise.disturbance_per_reading_per_s2 = std::clamp(noise.disturbance_per_reading_per_s2, 1e1, 1e8);
   return noise;
 }
@@ -128,8 +128,9 @@ class Fitter {
         for (Eigen::Index i = 0; i < n; ++i) {
           const FreeParameter& p = free_[static_cast<std::size_t>(i)];
           const double here = at.model[p.id];
-          const double moved =
-              p.logarithmic ? here * std::exp(std::clamp(step[i], -kMostLogStep, kMostLogStep)) : here + step[i];
+          const double moved = p.logarithmic
+                                   ? here * std::exp(std::clamp(step[i], -kMostLogStep, kMostLogStep))
+                                   : here + step[i];
           there.model.set(p.id, std::clamp(moved, p.lower, p.upper));
         }
         evaluate(there);
@@ -255,8 +256,8 @@ NoiseModel search_noise(const Session& session, const Model& model, const FitOpt
   return best;
 }
 
-Fit fit(const Session& session, const Model& start, const NoiseModel& noise, const std::vector<FreeParameter>& free,
-        const FitOptions& options) {
+Fit fit(const Session& session, const Model& start, const NoiseModel& noise,
+        const std::vector<FreeParameter>& free, const FitOptions& options) {
   return Fitter(session, free, options).run(start, noise);
 }
 

@@ -7,8 +7,8 @@
 
 namespace cartwright {
 
-/// One number the fit may move. `scale` is its natural size: finite differences use it. Numbers that span decades
-/// (stiffness, speeds, periods, time constants) move by their logarithm.
+/// One number the fit may move. `scale` is its natural size: finite differences use it. Numbers that span
+/// decades (stiffness, speeds, periods, time constants) move by their logarithm.
 struct FreeParameter {
   Parameter id;
   double scale;
@@ -17,8 +17,8 @@ struct FreeParameter {
 };
 
 struct FitOptions {
-  double outlier_m = 0;      ///< errors beyond this count linearly (Huber); 0: every error counts by its square
-  int most_rounds = 4;       ///< rounds of physics, then noise
+  double outlier_m = 0;  ///< errors beyond this count linearly (Huber); 0: every error counts by its square
+  int most_rounds = 4;   ///< rounds of physics, then noise
   int most_iterations = 8;   ///< Levenberg-Marquardt iterations in a round
   double tolerance = 0.1;    ///< stop when the log-likelihood gains less than this
   bool move_noise = true;    ///< fit the observer's noise ratio and correlation time alongside
@@ -30,8 +30,8 @@ struct FitOptions {
 ///
 ///     log L = -N/2 log(1/N sum rho(e(k))),
 ///
-/// with the noise size concentrated out. `covariance` is the sandwich estimate over blocks of time: it stays honest
-/// when errors are coloured or the encoder's steps make them uneven.
+/// with the noise size concentrated out. `covariance` is the sandwich estimate over blocks of time: it stays
+/// honest when errors are coloured or the encoder's steps make them uneven.
 struct Fit {
   Model model;
   NoiseModel noise;
@@ -52,9 +52,10 @@ struct Fit {
 /// Length of the blocks that losses and scores are summed over.
 inline constexpr double kBlock_s = 0.25;
 
-/// Levenberg-Marquardt over the physics and a pattern search over the noise, in turn, from `start`, within bounds.
-Fit fit(const Session& session, const Model& start, const NoiseModel& noise, const std::vector<FreeParameter>& free,
-        const FitOptions& options = {});
+/// Levenberg-Marquardt over the physics and a pattern search over the noise, in turn, from `start`, within
+/// bounds.
+Fit fit(const Session& session, const Model& start, const NoiseModel& noise,
+        const std::vector<FreeParameter>& free, const FitOptions& options = {});
 
 /// Finds the noise for a fixed model from a coarse grid: the start of the first fit of a session.
 NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options = {});

@@ -7,8 +7,8 @@
 
 namespace cartwright {
 
-/// How the one-step errors of an observer answer to something the model lacks: the linear recursion of its error
-/// state p = (position, velocity, disturbance),
+/// How the one-step errors of an observer answer to something the model lacks: the linear recursion of its
+/// error state p = (position, velocity, disturbance),
 ///
 ///     e(k) = p1 + b(k),   p <- p - K e(k),   p(k+1) = F p + (T^2/2, T, 0) a(k)
 ///

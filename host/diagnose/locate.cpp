@@ -94,7 +94,8 @@ SpectralLine strongest_line(const Session& session, const Fit& fit) {
       first += rows;
     }
     // Sum of R unit exponentials; Chernoff bound of its tail, in nats.
-    const double gain = power > recordings ? power - recordings - recordings * std::log(power / recordings) : 0;
+    const double gain =
+        power > recordings ? power - recordings - recordings * std::log(power / recordings) : 0;
     if (gain > line.gain) line = {f, gain};
   }
   line.gain = std::max(0.0, line.gain - std::log(std::max(looks, 1.0)));

@@ -7,18 +7,18 @@
 
 namespace cartwright {
 
-/// Missing acceleration as a function of one axis, estimated without naming any physics: one push per bin, all bins
-/// of the axis and the model's own numbers fitted jointly to the one-step errors through what the observer would
-/// show (influence.hpp). `band` holds for all bins of all axes at once (Bonferroni, 95 %).
+/// Missing acceleration as a function of one axis, estimated without naming any physics: one push per bin,
+/// all bins of the axis and the model's own numbers fitted jointly to the one-step errors through what the
+/// observer would show (influence.hpp). `band` holds for all bins of all axes at once (Bonferroni, 95 %).
 struct AxisMap {
-  std::string axis;   ///< `position_m`, `velocity_m_per_s`, ... as in diagnosis.json
+  std::string axis;    ///< `position_m`, `velocity_m_per_s`, ... as in diagnosis.json
   std::string parity;  ///< "even": the same push both ways; "odd": a push against the motion; "" elsewhere
-  std::vector<double> low, high;       ///< bin edges
-  std::vector<double> push_m_per_s2;   ///< estimate; for odd maps positive is extra friction
-  std::vector<double> band_m_per_s2;   ///< half width of the simultaneous band
-  double gain = 0;                     ///< log-likelihood gained by the whole axis [nats]
-  double bar = 0;                      ///< what chance alone reaches on one of the axes in 1 of 100 sessions
-  double share = 0;                    ///< of the disturbance power that the observer had to add
+  std::vector<double> low, high;      ///< bin edges
+  std::vector<double> push_m_per_s2;  ///< estimate; for odd maps positive is extra friction
+  std::vector<double> band_m_per_s2;  ///< half width of the simultaneous band
+  double gain = 0;                    ///< log-likelihood gained by the whole axis [nats]
+  double bar = 0;                     ///< what chance alone reaches on one of the axes in 1 of 100 sessions
+  double share = 0;                   ///< of the disturbance power that the observer had to add
   bool flat() const { return gain <= bar; }
   /// The widest stretch of neighbouring bins outside the band; empty where there is none.
   std::vector<double> stretch() const;
@@ -33,7 +33,7 @@ struct SpectralLine {
 struct Location {
   std::vector<AxisMap> axes;
   SpectralLine line;
-  double lag_correlation = 0;     ///< of errors with the change of voltage, largest over lags
+  double lag_correlation = 0;  ///< of errors with the change of voltage, largest over lags
   double lag_s = 0;
   double repeat_correlation = 0;  ///< of smoothed errors between repeats; 0 without repeats
   double repeat_z = 0;            ///< that, in standard errors

@@ -4,8 +4,9 @@
 
 namespace cartwright {
 
-/// What the model does not determine: a disturbance acceleration d that wanders with a correlation time, and a
-/// reading error. Only their ratio shapes the observer; the size of both is concentrated out of the likelihood.
+/// What the model does not determine: a disturbance acceleration d that wanders with a correlation time, and
+/// a reading error. Only their ratio shapes the observer; the size of both is concentrated out of the
+/// likelihood.
 struct NoiseModel {
   double disturbance_per_reading_per_s2 = 1e4;  ///< std(d) / std(reading error) [1/s^2]
   double correlation_time_s = 0.02;             ///< of d; bounded above, or the noise swallows the plant
@@ -14,12 +15,13 @@ struct NoiseModel {
   static constexpr double kShortestCorrelation_s = 0.0002;
 };
 
-/// Steady-state Kalman gains of the linear cart  y' = v, v' = -c v + d, d' = -d/tau + white  read at a fixed period.
+/// Steady-state Kalman gains of the linear cart  y' = v, v' = -c v + d, d' = -d/tau + white  read at a fixed
+/// period.
 struct ObserverGain {
-  double position = 0;           ///< [-]
-  double velocity_per_s = 0;     ///< [1/s]
-  double disturbance_per_s2 = 0; ///< [1/s^2]
-  double disturbance_decay = 0;  ///< d(k+1)/d(k), exp(-T/tau)
+  double position = 0;              ///< [-]
+  double velocity_per_s = 0;        ///< [1/s]
+  double disturbance_per_s2 = 0;    ///< [1/s^2]
+  double disturbance_decay = 0;     ///< d(k+1)/d(k), exp(-T/tau)
   double error_variance_ratio = 1;  ///< variance of the one-step error over that of the reading error
 };
 

@@ -30,7 +30,9 @@ double first_velocity(const Rig& rig, const Recording& recording) {
 
 }  // namespace
 
-std::size_t settling_rows(const Rig& rig) { return static_cast<std::size_t>(kSettling_s * rig.sample_rate_hz) + 1; }
+std::size_t settling_rows(const Rig& rig) {
+  return static_cast<std::size_t>(kSettling_s * rig.sample_rate_hz) + 1;
+}
 
 double linear_damping(const Model& model) {
   double c = 0;
@@ -42,11 +44,12 @@ double linear_damping(const Model& model) {
 ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double damping_per_s) {
   NoiseModel eager = noise;
   eager.disturbance_per_reading_per_s2 = std::max(noise.disturbance_per_reading_per_s2, kEagerRatio_per_s2);
-  return {observer_gain(eager, rig.period_s(), damping_per_s), observer_gain(noise, rig.period_s(), damping_per_s)};
+  return {observer_gain(eager, rig.period_s(), damping_per_s),
+          observer_gain(noise, rig.period_s(), damping_per_s)};
 }
 
-Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
-                   const ObserverOptions& options) {
+Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig,
+                    const Recording& recording, const ObserverOptions& options) {
   PlantOptions plant_options;
   plant_options.step_s = options.step_s;
   plant_options.stiff_step_factor = kStiffStepFactor;
@@ -89,7 +92,8 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
     }
     const ObserverGain& gain = k < start_rows ? gains.starting : gains.settled;
     disturbance = gain.disturbance_decay * disturbance + gain.disturbance_per_s2 * error;
-    plant.correct(state.position_m + gain.position * error, state.velocity_m_per_s + gain.velocity_per_s * error);
+    plant.correct(state.position_m + gain.position * error,
+                  state.velocity_m_per_s + gain.velocity_per_s * error);
   }
   return out;
 }

@@ -10,12 +10,13 @@ namespace cartwright {
 
 /// The one-step prediction errors of one recording and the states they were made from.
 struct Observation {
-  std::vector<double> error_m;            ///< y(k) - predicted y(k) from rows before k; row 0 is 0
-  std::vector<double> velocity_m_per_s;   ///< predicted, before the correction (only if asked for)
+  std::vector<double> error_m;               ///< y(k) - predicted y(k) from rows before k; row 0 is 0
+  std::vector<double> velocity_m_per_s;      ///< predicted, before the correction (only if asked for)
   std::vector<double> disturbance_m_per_s2;  ///< acceleration the observer had to add (only if asked for)
 };
 
-/// The gains of a session's observer: eager over the first rows, where the start state is unknown, then settled.
+/// The gains of a session's observer: eager over the first rows, where the start state is unknown, then
+/// settled.
 struct ObserverGains {
   ObserverGain starting, settled;
 };
@@ -29,14 +30,15 @@ struct ObserverOptions {
   double step_s = 1e-3;  ///< greatest inner step of the plant
 };
 
-/// Runs the physical model beside a recording: the recorded voltage held over each tick, friction sticking exactly,
-/// and after each reading a fixed-gain correction of position, velocity and the disturbance acceleration:
+/// Runs the physical model beside a recording: the recorded voltage held over each tick, friction sticking
+/// exactly, and after each reading a fixed-gain correction of position, velocity and the disturbance
+/// acceleration:
 ///
 ///     e(k) = y(k) - h(x(k)),   x(k) += K e(k),   v(k) += Kv e(k),   d(k) = phi d(k) + Kd e(k)
 ///
 /// Were model and noise right, e would be white; its mean square is then the likelihood of the recording.
-Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig, const Recording& recording,
-                   const ObserverOptions& options = {});
+Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig,
+                    const Recording& recording, const ObserverOptions& options = {});
 
 /// Rows at the beginning of a recording while the observer settles; they do not count.
 std::size_t settling_rows(const Rig& rig);

@@ -6,9 +6,9 @@
 
 namespace cartwright {
 
-/// Start values that no fixed list can hold, found in the errors of `base` by linear regression on what the observer
-/// would have shown (influence.hpp), the base's own numbers refitted alongside. Each scan looks in many places; the
-/// promise it returns is already less what the best of that many looks at noise would bring.
+/// Start values that no fixed list can hold, found in the errors of `base` by linear regression on what the
+/// observer would have shown (influence.hpp), the base's own numbers refitted alongside. Each scan looks in
+/// many places; the promise it returns is already less what the best of that many looks at noise would bring.
 
 /// Cogging and encoder eccentricity: spatial frequencies up to the finest that speed and travel resolve.
 std::vector<Promise> scan_periods(const Session& session, const Fit& base, const SessionFacts& facts,
@@ -24,7 +24,8 @@ struct ReadingJump {
   double step_m;
 };
 
-/// Lost counts: steps of the reading that a matched filter finds, of at least two counts and far beyond noise.
+/// Lost counts: steps of the reading that a matched filter finds, of at least two counts and far beyond
+/// noise.
 std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, const FitOptions& options);
 
 /// The session with its readings put back where they would be had no counts been lost.

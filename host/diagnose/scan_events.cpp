@@ -26,7 +26,8 @@ std::vector<double> response(const ObserverGains& gains, const Rig& rig, double 
     out.push_back(influence.step(false, acceleration, reading));
     peak = std::max(peak, std::abs(out.back()));
     if (k > input_rows + 20) {
-      const bool quiet = std::all_of(out.end() - 20, out.end(), [&](double e) { return std::abs(e) < 0.03 * peak; });
+      const bool quiet =
+          std::all_of(out.end() - 20, out.end(), [&](double e) { return std::abs(e) < 0.03 * peak; });
       if (quiet) break;
     }
   }
@@ -111,8 +112,12 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
   const double count = rig.encoder_resolution_m;
   if (!(count > 0)) return {};
   const ObserverGains gains = observer_gains(base.noise, rig, options.damping_per_s);
-  std::vector<double> shape =
-      response(gains, rig, options.damping_per_s, [](std::size_t) { return std::pair{0.0, 1.0}; }, 1);
+  std::vector<double> shape = response(
+      gains, rig, options.damping_per_s,
+      [](std::size_t) {
+        return std::pair{0.0, 1.0};
+      },
+      1);
   shape.resize(std::min(shape.size(), static_cast<std::size_t>(kJumpTail_s * rig.sample_rate_hz) + 2));
   double energy = 0;
   for (const double s : shape) energy += s * s;

@@ -32,9 +32,11 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
   e -= q * (q.transpose() * e);
   const double ee = e.squaredNorm();
 
-  const double least_period = std::max(kLeastCounts * session.rig.encoder_resolution_m, 0.005 * facts.travel_m());
+  const double least_period =
+      std::max(kLeastCounts * session.rig.encoder_resolution_m, 0.005 * facts.travel_m());
   const double step = 1 / (kStepsPerLobe * facts.travel_m());
-  const auto count = std::min<std::size_t>(kMostFrequencies, static_cast<std::size_t>(1 / (least_period * step)));
+  const auto count =
+      std::min<std::size_t>(kMostFrequencies, static_cast<std::size_t>(1 / (least_period * step)));
   const ObserverGains gains = observer_gains(base.noise, session.rig, options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig), starting = skip / 2;
   std::vector<std::vector<double>> velocity;
@@ -80,8 +82,8 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
   std::vector<Promise> promises;
   // A period of the travel's own length bends like a straight line: it is not told from scale and offset.
   const auto first = static_cast<std::size_t>(2 * kStepsPerLobe) - 2;
-  const auto take_peaks = [&](const std::vector<Peak>& peaks, Term term, Parameter amplitude, Parameter period,
-                              Parameter phase) {
+  const auto take_peaks = [&](const std::vector<Peak>& peaks, Term term, Parameter amplitude,
+                              Parameter period, Parameter phase) {
     std::vector<std::size_t> tops;
     for (std::size_t i = first; i < count; ++i) {
       if (i > first && peaks[i - 1].gain > peaks[i].gain) continue;
@@ -96,16 +98,18 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
       start.set(period, 1 / (step * static_cast<double>(i + 2)));
       start.set(phase, std::atan2(peaks[i].cosine, peaks[i].sine));
       Promise promise{term, start, base.free, peaks[i].gain - std::log(static_cast<double>(count))};
-      for (const Parameter id : {amplitude, period, phase}) promise.free.push_back(free_parameter(id, facts, start));
+      for (const Parameter id : {amplitude, period, phase})
+        promise.free.push_back(free_parameter(id, facts, start));
       promises.push_back(std::move(promise));
     }
   };
   if (!base.model.has(Term::cogging)) {
-    take_peaks(push, Term::cogging, Parameter::cogging_amplitude, Parameter::cogging_period, Parameter::cogging_phase);
+    take_peaks(push, Term::cogging, Parameter::cogging_amplitude, Parameter::cogging_period,
+               Parameter::cogging_phase);
   }
   if (!base.model.has(Term::encoder_eccentricity)) {
-    take_peaks(reading, Term::encoder_eccentricity, Parameter::eccentricity_amplitude, Parameter::eccentricity_period,
-               Parameter::eccentricity_phase);
+    take_peaks(reading, Term::encoder_eccentricity, Parameter::eccentricity_amplitude,
+               Parameter::eccentricity_period, Parameter::eccentricity_phase);
   }
   return promises;
 }

@@ -33,8 +33,7 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
   if (options.outlier_m > 0) e = e.cwiseMin(options.outlier_m).cwiseMax(-options.outlier_m);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(base.jacobian);
   const auto rank = base.jacobian.cols();
-  const Eigen::MatrixXd q =
-      qr.householderQ() * Eigen::MatrixXd::Identity(rows, rank);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, rank);
   e -= q * (q.transpose() * e);
   const double ee = e.squaredNorm();
 
@@ -59,7 +58,8 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
     const double cc = column.squaredNorm();
     if (!(cc > 0)) return;
     double multiple = -column.dot(e) / cc;
-    multiple = std::clamp(multiple, has_sign(promise.term) ? -1e9 : 0.0, has_sign(promise.term) ? 1e9 : kMostMultiple);
+    multiple = std::clamp(multiple, has_sign(promise.term) ? -1e9 : 0.0,
+                          has_sign(promise.term) ? 1e9 : kMostMultiple);
     const double left = (e + multiple * column).squaredNorm();
     promise.log_likelihood_gain = 0.5 * static_cast<double>(rows) * std::log(ee / left);
   });

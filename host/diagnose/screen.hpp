@@ -14,9 +14,9 @@ struct Promise {
   double log_likelihood_gain = 0;   ///< predicted by linear regression, nominal numbers refitted alongside
 };
 
-/// Predicts, without fitting, how much each candidate start would gain over `base`: its errors differ from the base's
-/// by a column; the base's own Jacobian is projected out, and the column's best multiple within [0, most] (or of
-/// either sign where the physics has none) is taken. One pass per start. Strongest first.
+/// Predicts, without fitting, how much each candidate start would gain over `base`: its errors differ from
+/// the base's by a column; the base's own Jacobian is projected out, and the column's best multiple within
+/// [0, most] (or of either sign where the physics has none) is taken. One pass per start. Strongest first.
 std::vector<Promise> screen(const Session& session, const Fit& base, const std::vector<Candidate>& list,
                             const FitOptions& options, unsigned threads);
 

@@ -13,17 +13,20 @@ std::string statement(Term term, const Model& m) {
     case Term::viscous_friction:
       return fmt::format("Damping proportional to speed, {:.3g} m/s^2 per m/s.", m[P::viscous_coefficient]);
     case Term::coulomb_friction:
-      return fmt::format("Dry friction of {:.3g} m/s^2 opposes every motion and holds the cart still up to that.",
-                         m[P::coulomb_level]);
+      return fmt::format(
+          "Dry friction of {:.3g} m/s^2 opposes every motion and holds the cart still up to that.",
+          m[P::coulomb_level]);
     case Term::exponential_damping:
       return fmt::format("Damping is {:.3g} 1/s higher at rest and falls off with speed over {:.3g} mm/s.",
                          m[P::exponential_alpha1], 1e3 / m[P::exponential_alpha2]);
     case Term::stribeck_friction:
-      return fmt::format("Friction is {:.3g} m/s^2 higher at rest; the excess is gone above about {:.3g} mm/s.",
-                         m[P::stribeck_excess], 2e3 * m[P::stribeck_speed]);
+      return fmt::format(
+          "Friction is {:.3g} m/s^2 higher at rest; the excess is gone above about {:.3g} mm/s.",
+          m[P::stribeck_excess], 2e3 * m[P::stribeck_speed]);
     case Term::constant_force:
       return fmt::format(
-          "A constant push of {:.3g} m/s^2 towards {}: the track is tilted, the amplifier has an offset, or dry "
+          "A constant push of {:.3g} m/s^2 towards {}: the track is tilted, the amplifier has an offset, or "
+          "dry "
           "friction differs between directions (one and the same equation).",
           std::abs(m[P::constant_acceleration]), side(m[P::constant_acceleration]));
     case Term::asymmetric_viscous_friction:
@@ -34,8 +37,8 @@ std::string statement(Term term, const Model& m) {
       return fmt::format("The rail rubs at y = {:.4g} mm: {:.3g} m/s^2 of extra friction, {:.3g} mm wide.",
                          1e3 * m[P::spot_centre], m[P::spot_peak], 1e3 * m[P::spot_width]);
     case Term::cogging:
-      return fmt::format("The motor cogs: +-{:.3g} m/s^2, repeating every {:.4g} mm.", m[P::cogging_amplitude],
-                         1e3 * m[P::cogging_period]);
+      return fmt::format("The motor cogs: +-{:.3g} m/s^2, repeating every {:.4g} mm.",
+                         m[P::cogging_amplitude], 1e3 * m[P::cogging_period]);
     case Term::backlash:
       return fmt::format("The motor turns {:.3g} mm before the cart follows, after every reversal.",
                          1e3 * m[P::backlash_gap]);
@@ -56,26 +59,30 @@ std::string statement(Term term, const Model& m) {
       return fmt::format("A tether pulls the cart towards y = {:.3g} mm with {:.3g} m/s^2 per m.",
                          1e3 * m[P::spring_neutral], m[P::spring_stiffness]);
     case Term::quadratic_drag:
-      return fmt::format("Drag grows with the square of speed, {:.3g} m/s^2 at 1 m/s.", m[P::drag_coefficient]);
+      return fmt::format("Drag grows with the square of speed, {:.3g} m/s^2 at 1 m/s.",
+                         m[P::drag_coefficient]);
     case Term::flexible_coupling:
       return fmt::format("Motor and cart hang on a spring: a resonance at {:.4g} Hz, damping ratio {:.2g}.",
                          m[P::coupling_resonance], m[P::coupling_damping_ratio]);
     case Term::motor_heating:
-      return fmt::format("The voltage gain falls by {:.3g} % with a time constant of {:.3g} s in each recording.",
-                         100 * m[P::heating_gain_loss], m[P::heating_time_constant]);
+      return fmt::format(
+          "The voltage gain falls by {:.3g} % with a time constant of {:.3g} s in each recording.",
+          100 * m[P::heating_gain_loss], m[P::heating_time_constant]);
     case Term::encoder_eccentricity:
       return fmt::format("The encoder reads +-{:.3g} um wrong, repeating every {:.4g} mm.",
                          1e6 * m[P::eccentricity_amplitude], 1e3 * m[P::eccentricity_period]);
     case Term::encoder_missed_counts:
-      return fmt::format("The encoder loses about {:.3g} counts {:.2g} times a second while faster than {:.3g} m/s.",
-                         m[P::missed_burst], m[P::missed_rate], m[P::missed_speed]);
+      return fmt::format(
+          "The encoder loses about {:.3g} counts {:.2g} times a second while faster than {:.3g} m/s.",
+          m[P::missed_burst], m[P::missed_rate], m[P::missed_speed]);
     case Term::presliding_friction:
       return fmt::format("Before it breaks away, friction gives like a spring of {:.3g} m/s^2 per mm.",
                          1e-3 * m[P::presliding_stiffness]);
     case Term::external_disturbance:
-      return fmt::format("Something pushed the cart in {} for {:.3g} s from t = {:.4g} s, {:.3g} m/s^2 at most.",
-                         m.disturbance_recording, m[P::disturbance_duration], m[P::disturbance_start],
-                         m[P::disturbance_peak]);
+      return fmt::format(
+          "Something pushed the cart in {} for {:.3g} s from t = {:.4g} s, {:.3g} m/s^2 at most.",
+          m.disturbance_recording, m[P::disturbance_duration], m[P::disturbance_start],
+          m[P::disturbance_peak]);
     case Term::amplifier_gain_asymmetry:
       return fmt::format("The amplifier's gain is {:.3g} % {} for positive commands than for negative ones.",
                          100 * std::abs(m[P::amplifier_gain_difference]),

@@ -16,8 +16,9 @@ class Command {
       : recording_(recording),
         pd_(std::get_if<PdGains>(&recording.controller) ? std::get<PdGains>(recording.controller) : PdGains{},
             rig.period_s(), rig.voltage_limit_V),
-        relay_(std::get_if<DualRelayGains>(&recording.controller) ? std::get<DualRelayGains>(recording.controller)
-                                                                  : DualRelayGains{},
+        relay_(std::get_if<DualRelayGains>(&recording.controller)
+                   ? std::get<DualRelayGains>(recording.controller)
+                   : DualRelayGains{},
                rig.period_s(), rig.voltage_limit_V) {}
 
   double at(std::size_t row, double reading_m) {
@@ -64,7 +65,8 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
     for (std::size_t k = 0; k < r.size(); ++k) {
       const PlantState& state = plant.state();
       const double elapsed = k == 0 ? 0 : r.t_s[k] - r.t_s[k - 1];
-      double reading = encoder.read(state.position_m, state.velocity_m_per_s, elapsed) + added * normal(random);
+      double reading =
+          encoder.read(state.position_m, state.velocity_m_per_s, elapsed) + added * normal(random);
       if (count > 0) reading = count * std::round(reading / count);
       r.y_m[k] = reading;
       r.u_V[k] = command.at(k, reading);

@@ -14,8 +14,9 @@ struct NoiseSize {
 };
 NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s);
 
-/// The same experiments on a cart that is exactly `model`, with a disturbance and a reading error of the given size:
-/// each recording's own controller in closed loop at the recorded times (its recorded voltage where it has none).
+/// The same experiments on a cart that is exactly `model`, with a disturbance and a reading error of the
+/// given size: each recording's own controller in closed loop at the recorded times (its recorded voltage
+/// where it has none).
 Session surrogate(const Session& session, const Model& model, const NoiseSize& noise, std::uint64_t seed);
 
 }  // namespace cartwright
