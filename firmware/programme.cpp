@@ -11,6 +11,9 @@ namespace {
 using wire::ExperimentKind;
 using wire::Id;
 
+/// A relay test that stops by itself ends at the latest after this.
+constexpr double kMostRelay_s = 60;
+
 MultisineSetup track_setup(const Settings& s, double period_s) {
   MultisineSetup setup;
   const bool sine = s.integer(Id::track_shape) == 1;
@@ -49,7 +52,7 @@ RelaySetup relay_setup(const Settings& s, const RigFile& rig) {
   setup.tolerance = s[Id::relay_tolerance];
   setup.cycles = s.integer(Id::relay_cycles);
   setup.stop = s.flag(Id::relay_stop);
-  setup.duration_s = s[Id::experiment_duration_s];
+  setup.duration_s = setup.stop ? kMostRelay_s : s[Id::experiment_duration_s];
   setup.deadband_m = std::max(3 * rig.rig.encoder_resolution_m, 0.5 * s[Id::relay_hysteresis_m]);
   return setup;
 }

@@ -163,7 +163,7 @@ constexpr std::array<Register, kRegisterCount> kMap{{
     {Id::experiment_kind, "experiment_kind", 500, Type::u16, 1, "", Access::command, 1, 7, 1,
      "1 step, 2 relay, 3 track, 4 sweep, 5 dither, 6 hold, 7 battery"},
     {Id::experiment_duration_s, "experiment_duration_s", 501, Type::f32, 1, "s", Access::command, 0.1, 600, 6,
-     "length of the recording; the relay may end earlier; a battery keeps its own"},
+     "length of the recording; a sweep, a battery and a relay that stops by itself have their own"},
     {Id::experiment_own_gains, "experiment_own_gains", 503, Type::u16, 1, "", Access::command, 0, 1, 0,
      "0: the active gains; 1: experiment_kp and the three after it. A battery has its own"},
     {Id::experiment_kp_V_per_m, "experiment_kp_V_per_m", 504, Type::f32, 1, "V/m", Access::command, 0, 2000,
@@ -197,7 +197,8 @@ constexpr std::array<Register, kRegisterCount> kMap{{
     {Id::relay_cycles, "relay_cycles", 550, Type::u16, 1, "", Access::command, 2, 50, 4,
      "cycles in a row that must agree; as many are recorded again after that"},
     {Id::relay_stop, "relay_stop", 551, Type::u16, 1, "", Access::command, 0, 1, 1,
-     "1: end when the limit cycle has converged, or clearly will not; 0: run experiment_duration"},
+     "1: end when the limit cycle has converged, or clearly will not, at the latest after 60 s; 0: run "
+     "experiment_duration_s"},
     {Id::track_shape, "track_shape", 560, Type::u16, 1, "", Access::command, 0, 1, 0, "0 multisine, 1 sine"},
     {Id::track_amplitude_m, "track_amplitude_m", 561, Type::f32, 1, "m", Access::command, 0, 2, 0.11,
      "greatest value of the reference"},
