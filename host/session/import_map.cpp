@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/session/controller_toml.hpp"
+#include "common/config/controller_toml.hpp"
 #include "host/session/files.hpp"
 #include "host/session/import.hpp"
 

@@ -1,3 +1,0 @@
-#pragma once
-
-#include "common/config/toml_reader.hpp"
