@@ -37,9 +37,9 @@ Outcome run(const Options& options) {
       {{"Rig", session->rig.name},
        {"Sample rate", fmt::format("{} Hz", session->rig.sample_rate_hz)},
        {"Encoder", fmt::format("{:.4g} µm per count", 1e6 * session->rig.encoder_resolution_m)},
-       {"Voltage limit", fmt::format("±{} V", session->rig.voltage_limit_V)},
-       {"Travel", fmt::format("{} to {} m", report::format_number(session->rig.travel_m[0], 2),
-                              report::format_number(session->rig.travel_m[1], 2))},
+       {"Voltage limit", fmt::format("±{:.4g} V", session->rig.voltage_limit_V)},
+       {"Travel", fmt::format("{} to {} mm", report::format_number(1e3 * session->rig.travel_m[0], 3),
+                              report::format_number(1e3 * session->rig.travel_m[1], 3))},
        {"Recordings", std::to_string(session->recordings.size())},
        {"Model", options.model.empty() ? "none" : std::filesystem::path(options.model).filename().string()},
        {"Made by", "cartwright " CARTWRIGHT_VERSION}});
@@ -54,9 +54,10 @@ Outcome run(const Options& options) {
       line += fmt::format(" The model, {}, is {:.3g} mm rms away.",
                           recording.has_controller()
                               ? "driven by the recorded reference through the same controller"
-                              : "driven by the recorded voltage",
+                              : "driven by the recorded voltage from rest",
                           1e3 * rms_difference_m(recording.y_m, predicted.y_m));
-      overlays.push_back({"model", report::Colour::model, predicted.t_s, predicted.y_m, predicted.u_V});
+      overlays.push_back({"model", report::Colour::model, predicted.t_s, predicted.y_m,
+                          recording.has_controller() ? predicted.u_V : std::vector<double>{}});
     }
     page.paragraph(line);
     std::vector<report::Plot> plots = report::recording_plots(recording, overlays);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -28,6 +27,11 @@ Result<report::NamedModel> read_named(const std::string& text) {
       *model};
 }
 
+std::string folder_name(const std::string& directory) {
+  const std::filesystem::path path = std::filesystem::absolute(directory).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 /// Adds the recordings of one more session of the same rig; a name that is taken gets the directory's in
 /// front.
 Result<void> join(Session& all, Session more, const std::string& directory) {
@@ -41,16 +45,10 @@ Result<void> join(Session& all, Session more, const std::string& directory) {
     return failure(directory +
                    ": another rig (sample rate, voltage limit or encoder differ); give sessions of one rig");
   }
-  const std::string folder = std::filesystem::path(directory).lexically_normal().filename().string();
-  const auto taken = [&](const std::string& file) {
-    return std::any_of(all.recordings.begin(), all.recordings.end(),
-                       [&](const Recording& recording) { return recording.file == file; });
-  };
+  const std::string folder = folder_name(directory);
   for (Recording& recording : more.recordings) {
-    if (taken(recording.file)) {
-      recording.file = folder + "/" + recording.file;
-      if (!recording.repeat_of.empty()) recording.repeat_of = folder + "/" + recording.repeat_of;
-    }
+    recording.file = folder + "/" + recording.file;
+    if (!recording.repeat_of.empty()) recording.repeat_of = folder + "/" + recording.repeat_of;
     all.recordings.push_back(std::move(recording));
   }
   return {};
@@ -63,7 +61,7 @@ Outcome run(const Options& options) {
     if (!session) return tl::unexpected(session.error());
     const auto joined = join(content.session, std::move(*session), directory);
     if (!joined) return tl::unexpected(joined.error());
-    content.source += (content.source.empty() ? "" : ", ") + directory;
+    content.source += (content.source.empty() ? "" : ", ") + folder_name(directory);
   }
   for (const std::string& text : options.models) {
     auto model = read_named(text);

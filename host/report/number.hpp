@@ -1,17 +1,12 @@
 #pragma once
 
-#include <limits>
 #include <string>
+
+#include "host/statistics/estimate.hpp"
 
 namespace cartwright::report {
 
-/// A number with the interval it lies in (95 % unless the table says otherwise); NaN bounds where there is
-/// none.
-struct Estimate {
-  double value = 0;
-  double low = std::numeric_limits<double>::quiet_NaN();
-  double high = std::numeric_limits<double>::quiet_NaN();
-};
+using cartwright::Estimate;
 
 /// A number as a page shows it: so many significant digits, a true minus sign, powers of ten written out for
 /// what is very small or large, a dash for what is not a number.

@@ -7,6 +7,7 @@
 
 #include "host/report/pages/friction_curve.hpp"
 #include "host/report/pages/gain_pairs.hpp"
+#include "host/report/pages/limit_cycles.hpp"
 #include "host/report/pages/model_fit.hpp"
 #include "host/report/pages/parameters.hpp"
 #include "host/report/session_page.hpp"
@@ -47,7 +48,7 @@ void add_what_was_run(Report& page, const IdentificationPage& content) {
                                          total_time_s(content.session))},
               {"Sample rate", fmt::format("{} Hz", rig.sample_rate_hz)},
               {"Encoder", fmt::format("{:.4g} µm per count", 1e6 * rig.encoder_resolution_m)},
-              {"Voltage limit", fmt::format("±{} V", rig.voltage_limit_V)},
+              {"Voltage limit", fmt::format("±{:.4g} V", rig.voltage_limit_V)},
               {"Session", content.source},
               {"Made by", "cartwright " CARTWRIGHT_VERSION}});
   page.table(recordings_table(content.session));
@@ -76,6 +77,18 @@ Report identification_page(const IdentificationPage& content) {
   page.plot(friction_curves(curves, usual_top_speed_m_per_s(session)));
 
   add_gain_pairs(page, session, models);
+
+  const bool has_relay = std::any_of(
+      session.recordings.begin(), session.recordings.end(),
+      [](const Recording& one) { return std::holds_alternative<DualRelayGains>(one.controller); });
+  if (has_relay) {
+    const auto relay = identify_from_relay(session);
+    if (relay) {
+      add_limit_cycles(page, session, *relay, content.truth);
+    } else {
+      page.section("Limit cycles").paragraph("Nothing from the relay tests: " + relay.error().message);
+    }
+  }
 
   page.section("Fit to every recording");
   const Predictions predictions = predict_all(session, models);
