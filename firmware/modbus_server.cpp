@@ -20,7 +20,7 @@ constexpr std::size_t kMostClients = 16;
 /// How often the server looks at the clock while no one asks anything.
 constexpr int kPoll_ms = 20;
 /// A client that sends half a request is dropped after this long.
-constexpr std::uint32_t kHalfRequest_us = 200'000;
+constexpr std::uint32_t kHalfRequest_us = 100'000;
 constexpr std::uint16_t kMostPerWrite = 123;
 
 constexpr std::uint8_t kReadHolding = 3, kReadInput = 4, kWriteOne = 6, kWriteMany = 16;
@@ -118,6 +118,7 @@ Result<std::unique_ptr<ModbusServer>> ModbusServer::listen(const std::string& ad
   c.context.reset(modbus_new_tcp(address.c_str(), port));
   if (!c.context) return failure(fmt::format("listen = \"{}\" is not an IPv4 address", address));
   modbus_set_indication_timeout(c.context.get(), 0, kHalfRequest_us);
+  modbus_set_byte_timeout(c.context.get(), 0, kHalfRequest_us);  // between the parts of one request
   c.mapping.reset(modbus_mapping_new(0, 0, wire::map_end(), wire::map_end()));
   if (!c.mapping) return failure("no memory for the register map");
   c.listener = modbus_tcp_listen(c.context.get(), static_cast<int>(kMostClients));
