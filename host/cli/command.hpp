@@ -37,6 +37,7 @@ void add_export(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_relay_identify(CLI::App& app, int& exit_status);
 void add_report(CLI::App& app, int& exit_status);
+void add_reproduce(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
 void add_sinefit(CLI::App& app, int& exit_status);
 

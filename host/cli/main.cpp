@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   add_plot(app, exit_status);
   add_relay_identify(app, exit_status);
   add_report(app, exit_status);
+  add_reproduce(app, exit_status);
   add_simulate(app, exit_status);
   add_sinefit(app, exit_status);
   try {

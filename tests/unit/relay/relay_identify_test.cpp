@@ -7,14 +7,14 @@
 #include <random>
 
 #include "common/model/plant.hpp"
-#include "tests/unit/relay/relay_plant.hpp"
+#include "host/reproduce/relay_plant.hpp"
 
 namespace cartwright {
 namespace {
 
-using test::PaperPlant;
-using test::relay_session;
-using test::rig_with;
+using reproduce::PaperPlant;
+using reproduce::relay_session;
+using reproduce::rig_with;
 using testing::HasSubstr;
 
 Estimate named(const std::vector<RelayReport::Value>& values, const std::string& name) {

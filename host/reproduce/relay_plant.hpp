@@ -5,7 +5,7 @@
 
 #include "host/evaluate/closed_loop.hpp"
 
-namespace cartwright::test {
+namespace cartwright::reproduce {
 
 /// The plant of the relay paper, Eq. (18): Kp = 10, Tp = 0.2685 s, f1 = 0.5 V, f2 = 0.01 V s/m.
 struct PaperPlant {
@@ -45,4 +45,4 @@ inline Rig rig_with(double sample_rate_hz, double encoder_resolution_m) {
   return rig;
 }
 
-}  // namespace cartwright::test
+}  // namespace cartwright::reproduce
