@@ -54,21 +54,51 @@ void add_what_was_run(Report& page, const IdentificationPage& content) {
   page.table(recordings_table(content.session));
 }
 
+bool has_relay_tests(const Session& session) {
+  return std::any_of(session.recordings.begin(), session.recordings.end(), [](const Recording& recording) {
+    return std::holds_alternative<DualRelayGains>(recording.controller);
+  });
+}
+
+/// A model of what the relay tests tell apart.
+Model model_of(const RelayReport& relay) {
+  Model model;
+  for (const RelayReport::Value& value : relay.parameters) {
+    if (const auto parameter = find_parameter(value.name)) model.set(*parameter, value.estimate.value);
+  }
+  return model;
+}
+
+ParameterColumn column_of(const RelayReport& relay) {
+  ParameterColumn column{"identified, relay tests", {}};
+  for (const RelayReport::Value& value : relay.parameters) {
+    if (const auto parameter = find_parameter(value.name)) column.values[*parameter] = value.estimate;
+  }
+  return column;
+}
+
 }  // namespace
 
 Report identification_page(const IdentificationPage& content) {
   const Session& session = content.session;
+  const Result<RelayReport> relay =
+      has_relay_tests(session) ? identify_from_relay(session) : failure("there are none");
   std::vector<NamedModel> models = content.models;
-  for (std::size_t i = 0; i < models.size(); ++i)
-    models[i].colour = kModelColours[i % std::size(kModelColours)];
+  std::vector<ParameterColumn> columns;
+  for (const NamedModel& one : models) columns.push_back(column_of(one.name, one.model));
+  if (relay) {
+    models.push_back({"relay tests", model_of(*relay)});
+    columns.push_back(column_of(*relay));
+  }
+  if (content.truth) columns.push_back(column_of("true", *content.truth));
+  // The latest is the one that is looked at: it gets the first colour.
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    models[models.size() - 1 - i].colour = kModelColours[i % std::size(kModelColours)];
+  }
 
   Report page{"Identification of " + session.rig.name};
   add_what_was_run(page, content);
-
   page.section("Parameters");
-  std::vector<ParameterColumn> columns;
-  for (const NamedModel& one : models) columns.push_back(column_of(one.name, one.model));
-  if (content.truth) columns.push_back(column_of("true", *content.truth));
   page.table(parameters_table("Every model side by side", columns));
 
   std::vector<NamedModel> curves = models;
@@ -77,17 +107,10 @@ Report identification_page(const IdentificationPage& content) {
   page.plot(friction_curves(curves, usual_top_speed_m_per_s(session)));
 
   add_gain_pairs(page, session, models);
-
-  const bool has_relay = std::any_of(
-      session.recordings.begin(), session.recordings.end(),
-      [](const Recording& one) { return std::holds_alternative<DualRelayGains>(one.controller); });
-  if (has_relay) {
-    const auto relay = identify_from_relay(session);
-    if (relay) {
-      add_limit_cycles(page, session, *relay, content.truth);
-    } else {
-      page.section("Limit cycles").paragraph("Nothing from the relay tests: " + relay.error().message);
-    }
+  if (relay) {
+    add_limit_cycles(page, session, *relay, content.truth);
+  } else {
+    page.section("Limit cycles").paragraph("Nothing from relay tests: " + relay.error().message + ".");
   }
 
   page.section("Fit to every recording");

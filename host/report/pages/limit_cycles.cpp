@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace cartwright::report {
 namespace {
 
 constexpr std::size_t kCyclesShown = 3;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const Recording* find(const Session& session, const std::string& file) {
   const auto found = std::find_if(session.recordings.begin(), session.recordings.end(),
@@ -68,17 +71,18 @@ Table features_table(const RelayReport& relay) {
   return table;
 }
 
-/// Tp/Kp, f1 and 1/Kp + f2 of a model that holds nothing but viscous and Coulomb friction beside its gain.
-std::optional<RelayCombinations> of_model(const Model& model) {
+/// Tp/Kp of a model; f1 and 1/Kp + f2 as well where it holds nothing but viscous and Coulomb friction, else
+/// NaN.
+RelayCombinations of_model(const Model& model) {
+  const double beta = model[Parameter::voltage_gain];
+  const auto value = [&](Term term, Parameter parameter) { return model.has(term) ? model[parameter] : 0.0; };
   for (const TermInfo& term : terms()) {
     const bool plain = term.id == Term::viscous_friction || term.id == Term::coulomb_friction ||
                        term.id == Term::constant_force;
-    if (model.has(term.id) && !plain) return std::nullopt;
+    if (model.has(term.id) && !plain) return {1 / beta, kNaN, kNaN};
   }
-  const double beta = model[Parameter::voltage_gain];
-  const auto value = [&](Term term, Parameter parameter) { return model.has(term) ? model[parameter] : 0.0; };
-  return RelayCombinations{1 / beta, value(Term::coulomb_friction, Parameter::coulomb_level) / beta,
-                           value(Term::viscous_friction, Parameter::viscous_coefficient) / beta};
+  return {1 / beta, value(Term::coulomb_friction, Parameter::coulomb_level) / beta,
+          value(Term::viscous_friction, Parameter::viscous_coefficient) / beta};
 }
 
 Table cart_table(const RelayReport& relay, const std::optional<Model>& truth) {
@@ -115,9 +119,10 @@ Table cart_table(const RelayReport& relay, const std::optional<Model>& truth) {
       "In the words of the relay paper: G(s) = Kp/(s (Tp s + 1)), friction (f1 + f2 |v|) sgn v in volts; f2 "
       "and "
       "1/Kp enter only as their sum.";
-  if (truth && !exact) {
+  if (exact && std::isnan(exact->f1_V)) {
     table.note +=
-        " The true cart has other friction than Coulomb and viscous, so these have no true value; the curves "
+        " The true cart has other friction than Coulomb and viscous, so the last two have no true value; the "
+        "curves "
         "of "
         "friction against speed compare it.";
   }
