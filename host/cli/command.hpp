@@ -32,6 +32,7 @@ void add_completion(CLI::App& app, int& exit_status);
 void add_diagnose(CLI::App& app, int& exit_status);
 void add_doctor(CLI::App& app, int& exit_status);
 void add_evaluate(CLI::App& app, int& exit_status);
+void add_identify(CLI::App& app, int& exit_status);
 void add_import(CLI::App& app, int& exit_status);
 void add_export(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   add_diagnose(app, exit_status);
   add_doctor(app, exit_status);
   add_evaluate(app, exit_status);
+  add_identify(app, exit_status);
   add_import(app, exit_status);
   add_export(app, exit_status);
   add_plot(app, exit_status);

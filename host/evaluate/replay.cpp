@@ -40,12 +40,13 @@ class Replay {
 
   /// Predicts rows [first, last) and leaves `plant` at the time of row `last` (or of the last row, at the
   /// end).
-  void run(Plant& plant, const Start& start, std::size_t first, std::size_t last,
-           std::vector<double>& out_m) const {
+  void run(Plant& plant, const Start& start, std::size_t first, std::size_t last, std::vector<double>& out_m,
+           ReplayedMotion* motion = nullptr) const {
     plant.correct(start.position_m, start.velocity_m_per_s);
     out_m.resize(last - first);
     for (std::size_t row = first; row < last; ++row) {
       out_m[row - first] = encoder_.seen(plant.state().position_m);
+      if (motion != nullptr) trace(plant, row, *motion);
       if (row + 1 < recording_.size())
         plant.advance(recording_.u_V[row], recording_.t_s[row + 1] - recording_.t_s[row]);
     }
@@ -64,7 +65,40 @@ class Replay {
     return best;
   }
 
+  static void clear(ReplayedMotion& motion, std::size_t rows) {
+    for (auto* column : {&motion.velocity_m_per_s, &motion.direction, &motion.moving_share})
+      column->assign(rows, kNaN);
+  }
+
  private:
+  /// Signs within a row's hold are counted in this many parts where the cart stops or turns.
+  static constexpr int kParts = 32;
+
+  /// Notes how `plant`, at `row`, is going to move until the next row.
+  void trace(const Plant& plant, std::size_t row, ReplayedMotion& motion) const {
+    const auto sign = [](double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); };
+    const double v0 = plant.state().velocity_m_per_s;
+    motion.velocity_m_per_s[row] = v0;
+    motion.direction[row] = sign(v0);
+    motion.moving_share[row] = std::abs(sign(v0));
+    if (row + 1 >= recording_.size()) return;
+    const double hold_s = recording_.t_s[row + 1] - recording_.t_s[row];
+    Plant ahead = plant;
+    ahead.advance(recording_.u_V[row], hold_s);
+    if (sign(ahead.state().velocity_m_per_s) == sign(v0) && v0 != 0) return;
+    ahead = plant;
+    double direction = 0, moving = 0;
+    for (int part = 0; part < kParts; ++part) {
+      const double before = sign(ahead.state().velocity_m_per_s);
+      ahead.advance(recording_.u_V[row], hold_s / kParts);
+      const double after = sign(ahead.state().velocity_m_per_s);
+      direction += 0.5 * (before + after) / kParts;
+      moving += 0.5 * (std::abs(before) + std::abs(after)) / kParts;
+    }
+    motion.direction[row] = direction;
+    motion.moving_share[row] = moving;
+  }
+
   static constexpr double kSlow_m_per_s = 0.05;
   static constexpr std::size_t kSlopeRows = 12;
 
@@ -155,8 +189,9 @@ class Replay {
 }  // namespace
 
 std::vector<double> replay_windows(const Model& model, const Recording& recording,
-                                   const ReplayOptions& options) {
+                                   const ReplayOptions& options, ReplayedMotion* motion) {
   std::vector<double> out(recording.size(), kNaN), predicted;
+  if (motion != nullptr) Replay::clear(*motion, recording.size());
   if (recording.size() == 0) return out;
   Replay replay(model, recording, options);
   for (const Segment& stretch : segments(recording.t_s)) {
@@ -168,7 +203,7 @@ std::vector<double> replay_windows(const Model& model, const Recording& recordin
       while (last < stretch.last && recording.t_s[last] < end_s) ++last;
       if (stretch.last - last < kLeastRows) last = stretch.last;
       if (last - first < kLeastRows) break;
-      replay.run(plant, replay.fit(plant, first, last), first, last, predicted);
+      replay.run(plant, replay.fit(plant, first, last), first, last, predicted, motion);
       std::copy(predicted.begin(), predicted.end(), out.begin() + static_cast<std::ptrdiff_t>(first));
       first = last;
     }

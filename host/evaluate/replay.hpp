@@ -15,6 +15,13 @@ struct ReplayOptions {
   int iterations = 12;              ///< most Gauss-Newton steps for one start state
 };
 
+/// How the model moved during a replay.
+struct ReplayedMotion {
+  std::vector<double> velocity_m_per_s;  ///< at every row; exactly zero while the cart sticks
+  std::vector<double> direction;         ///< mean of sgn v from each row to the next
+  std::vector<double> moving_share;      ///< share of that time in which the cart does not stick
+};
+
 /// The recorded voltage replayed on a model over consecutive windows. In each window the start state (y0, v0)
 /// of the cart is the one that minimises the squared position error of that window (Gauss-Newton with a step
 /// guard); what else the model holds at that moment (voltages on their way through a delay, armature,
@@ -22,9 +29,10 @@ struct ReplayOptions {
 /// recording or after a gap. Windows never cross a gap.
 ///
 /// Returns the predicted reading [m] of every row, not rounded to counts; NaN in stretches of fewer than four
-/// rows. Depends on its arguments alone and may be called from several threads at once.
+/// rows (and so is `motion`, where asked for). Depends on its arguments alone and may be called from several
+/// threads.
 std::vector<double> replay_windows(const Model& model, const Recording& recording,
-                                   const ReplayOptions& options = {});
+                                   const ReplayOptions& options = {}, ReplayedMotion* motion = nullptr);
 
 /// The recorded voltage replayed from the start of the recording (and again after each gap), the start state
 /// fitted in the same way to the first `open_loop_rows` rows. Returns the predicted reading of every row; NaN
