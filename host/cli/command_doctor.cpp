@@ -5,17 +5,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/command.hpp"
+#include "host/cli/device_command.hpp"
 #include "host/doctor/check.hpp"
 
 namespace cartwright::cli {
 namespace {
 
-struct Options {
-  bool json = false;
-};
+Check check_controller(const device::Address& address) {
+  const auto controller = device::Controller::connect(address);
+  if (controller) return {"controller", Check::State::fine, "cartwrightd answers at " + address.text(), ""};
+  return {"controller", Check::State::wrong, controller.error().message, "sudo systemctl start cartwrightd"};
+}
 
-std::vector<Check> examine() {
+std::vector<Check> examine(const device::Address& address) {
   const SystemView system;
   const Permissions allowed = permissions();
   std::vector<Check> checks = {
@@ -26,6 +28,7 @@ std::vector<Check> examine() {
   };
   for (Check& can : check_can(system)) checks.push_back(std::move(can));
   checks.push_back(check_gpio(system));
+  checks.push_back(check_controller(address));
   return checks;
 }
 
@@ -59,11 +62,11 @@ void print_json(const std::vector<Check>& checks, bool fine) {
   fmt::print("{}\n", nlohmann::ordered_json{{"fine", fine}, {"checks", std::move(list)}}.dump(2));
 }
 
-Outcome run(const Options& options) {
-  const std::vector<Check> checks = examine();
+Outcome run(const device::Address& address, bool json) {
+  const std::vector<Check> checks = examine(address);
   const bool fine = std::none_of(checks.begin(), checks.end(),
                                  [](const Check& check) { return check.state == Check::State::wrong; });
-  options.json ? print_json(checks, fine) : print_lines(checks);
+  json ? print_json(checks, fine) : print_lines(checks);
   return fine ? Status::done : Status::no;
 }
 
@@ -79,9 +82,10 @@ void add_doctor(CLI::App& app, int& exit_status) {
       "Examples:\n"
       "  cartwright doctor\n"
       "  cartwright doctor --json");
-  auto options = std::make_shared<Options>();
-  command->add_flag("--json", options->json, "print one JSON object");
-  on_run(command, exit_status, [options] { return run(*options); });
+  const auto address = add_address(command);
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "print one JSON object");
+  on_run(command, exit_status, [address, json] { return run(*address, *json); });
 }
 
 }  // namespace cartwright::cli

@@ -49,10 +49,9 @@ Outcome run(const Options& options) {
   if (!model) return tl::unexpected(model.error());
   const auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
-  const auto made = make_directory(options.out);
-  if (!made) return tl::unexpected(made.error());
 
   std::vector<Prediction> predictions;
+  std::vector<NamedText> files;
   Totals all;
   for (const Recording& recording : session->recordings) {
     predictions.push_back(predict(*model, session->rig, recording));
@@ -60,11 +59,11 @@ Outcome run(const Options& options) {
     all.closed_loop.add(prediction.closed_loop);
     all.window.add(prediction.window);
     all.open_loop.add(prediction.open_loop);
-    const std::filesystem::path name =
-        std::filesystem::path(recording.file).stem().string() + ".prediction.csv";
-    const auto written = write_file(options.out / name, to_csv(to_table(prediction, recording)));
-    if (!written) return tl::unexpected(written.error());
+    files.push_back({std::filesystem::path(recording.file).stem().string() + ".prediction.csv",
+                     to_csv(to_table(prediction, recording))});
   }
+  const auto written = write_files(options.out, files);
+  if (!written) return tl::unexpected(written.error());
 
   if (options.json) {
     ordered_json document;

@@ -8,11 +8,20 @@ int main(int argc, char** argv) {
   CLI::App app{"Cartwright: identify a DC-motor cart, predict it, and find what its model leaves out"};
   app.name("cartwright");
   app.set_version_flag("--version", CARTWRIGHT_VERSION);
+  app.footer(
+      "Examples:\n"
+      "  cartwright device run battery --out rig/monday\n"
+      "  cartwright identify --session rig/monday --terms viscous_friction,coulomb_friction --out "
+      "model.toml\n"
+      "  cartwright evaluate --model model.toml --session rig/monday --out rig/monday-predicted\n"
+      "  cartwright doctor\n"
+      "cartwright COMMAND --help says more.");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   int exit_status = 0;
   add_completion(app, exit_status);
   add_diagnose(app, exit_status);
+  add_device(app, exit_status);
   add_doctor(app, exit_status);
   add_evaluate(app, exit_status);
   add_identify(app, exit_status);

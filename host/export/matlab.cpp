@@ -5,7 +5,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "host/export/controller_fields.hpp"
 #include "host/export/identifier.hpp"
@@ -102,6 +105,21 @@ Variable recording_variable(const Recording& recording, const std::string& name)
   return result.take();
 }
 
+/// Whether a version 5 file is whole: after the header of 128 bytes exactly `count` elements, each of which
+/// begins with `uint32 type, uint32 size`. matio does not report a write that failed, so what it wrote is
+/// looked at.
+bool holds_elements(std::string_view bytes, std::size_t count) {
+  constexpr std::size_t kHeader = 128, kTag = 8;
+  std::size_t at = kHeader;
+  for (; count > 0; --count) {
+    if (at + kTag > bytes.size()) return false;
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data() + at + sizeof size, sizeof size);
+    at += kTag + size;
+  }
+  return at == bytes.size();
+}
+
 /// A file in memory: matio writes only to paths and does not report a full disk, so it never sees the real
 /// one.
 class MemoryFile {
@@ -145,7 +163,11 @@ Result<std::string> to_matlab(const Session& session) {
     }
   }
   out.reset();
-  return read_file(file.path());
+  auto bytes = read_file(file.path());
+  if (bytes && !holds_elements(*bytes, names.size())) {
+    return failure("session.mat: came out incomplete, matio ran out of room for it; nothing was written");
+  }
+  return bytes;
 }
 
 }  // namespace cartwright

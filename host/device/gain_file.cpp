@@ -1,0 +1,52 @@
+#include "host/device/gain_file.hpp"
+
+#include <fmt/format.h>
+
+#include "common/config/controller_toml.hpp"
+#include "common/config/toml_reader.hpp"
+#include "common/files/files.hpp"
+#include "common/wire/register_map.hpp"
+
+namespace cartwright::device {
+
+Result<PdGains> gains_from_toml(std::string_view text, const std::string& source) {
+  const auto document = parse_toml(text, source);
+  if (!document) return tl::unexpected(document.error());
+  const TomlReader root(*document, source);
+  if (const auto known = root.only({"controller"}); !known) return tl::unexpected(known.error());
+  const auto controller = controller_from_toml(root);
+  if (!controller) return tl::unexpected(controller.error());
+  if (std::holds_alternative<std::monostate>(*controller)) {
+    return failure(fmt::format("{}: no [controller] table with type = \"pd\" and the gains", source));
+  }
+  const auto* gains = std::get_if<PdGains>(&*controller);
+  if (!gains) return failure(fmt::format("{}: the gain store holds PD gains; type must be \"pd\"", source));
+  const auto table = root.table("controller");
+  const std::tuple<std::string_view, double, wire::Id> bounds[] = {
+      {"kp_V_per_m", gains->kp_V_per_m, wire::Id::staged_kp_V_per_m},
+      {"kd_V_s_per_m", gains->kd_V_s_per_m, wire::Id::staged_kd_V_s_per_m},
+      {"derivative_filter_hz", gains->derivative_filter_hz, wire::Id::staged_filter_hz},
+  };
+  for (const auto& [key, value, id] : bounds) {
+    const wire::Register& what = wire::info(id);
+    if (value >= what.least && value <= what.most) continue;
+    return failure(fmt::format("{}: {} = {} is outside [{}, {}], what the controller takes",
+                               (*table)->where(key), key, value, what.least, what.most));
+  }
+  return *gains;
+}
+
+Result<PdGains> read_gains(const std::filesystem::path& file) {
+  return read_file(file).and_then(
+      [&](const std::string& text) { return gains_from_toml(text, file.string()); });
+}
+
+std::string gains_to_toml(const PdGains& gains) {
+  return fmt::format(
+      "[controller]\ntype = \"pd\"\nkp_V_per_m = {}\nkd_V_s_per_m = {}\nderivative_filter_hz = {}\n"
+      "derivative_on = \"{}\"\n",
+      gains.kp_V_per_m, gains.kd_V_s_per_m, gains.derivative_filter_hz,
+      gains.derivative_on_measurement ? "measurement" : "error");
+}
+
+}  // namespace cartwright::device
