@@ -64,6 +64,16 @@ TEST_F(EndToEnd, ABatteryComesOutAsASessionThatTheTrueModelPredicts) {
   ASSERT_EQ(evaluated.status, 0) << evaluated.err;
   EXPECT_LT(json::parse(evaluated.out)["window_rmse_m"].get<double>(), 2.275e-5);
 
+  // And the truth comes out of the recordings.
+  const Finished identified =
+      cartwright({"identify", "--session", scratch_.text("session"), "--terms",
+                  "viscous_friction,coulomb_friction", "--out", scratch_.text("model.toml"), "--json"});
+  ASSERT_EQ(identified.status, 0) << identified.err;
+  const json parameters = json::parse(identified.out)["parameters"];
+  EXPECT_NEAR(parameters["voltage_gain_m_per_s2_V"]["value"].get<double>(), 1.9, 0.003 * 1.9);
+  EXPECT_NEAR(parameters["viscous_friction.coefficient_per_s"]["value"].get<double>(), 5, 0.01 * 5);
+  EXPECT_NEAR(parameters["coulomb_friction.level_m_per_s2"]["value"].get<double>(), 0.5, 0.02 * 0.5);
+
   for (const char* format : {"mat", "ulg"}) {
     const Finished exported = cartwright({"export", scratch_.text("session"), "--to", format});
     EXPECT_EQ(exported.status, 0) << exported.err;
