@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::size_t kTermsFitted = 6;     // most terms fitted after a screening
 constexpr std::size_t kStartsFitted = 3;    // most starts of one term
-constexpr double kLeastPromise = 4.0;       // nats
+constexpr double kLeastPromise = 4.0;       // nats, to be fitted at all
+constexpr int kRoundsOfSketch = 2;          // of physics and noise, before the best are fitted to the end
+constexpr double kWorthFinishing = 0.3;     // of the best gain
 constexpr double kLeastShareOfBest = 0.01;  // of the best promise
 constexpr double kOutlierOverNoise = 6.0;   // errors beyond this many noise sizes count linearly
 
@@ -85,15 +87,33 @@ class Explainer {
     });
     if (stage == 0) search.promises = promises;
     const std::vector<Promise> chosen = worth_fitting(promises);
+    FitOptions sketch = fit_options_;
+    sketch.most_rounds = kRoundsOfSketch;
     std::vector<Explanation> tried(chosen.size());
     parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
       tried[i].effects = base.effects;
       tried[i].effects.push_back(chosen[i].term);
       tried[i].jumps = base.jumps;
-      tried[i].fit = fit(data, chosen[i].start, base.fit.noise, chosen[i].free, fit_options_);
+      tried[i].fit = fit(data, chosen[i].start, base.fit.noise, chosen[i].free, sketch);
     });
     if (!base.has(Term::encoder_missed_counts)) add_lost_counts(base, tried);
-    return best_per_term(std::move(tried));
+    tried = best_per_term(std::move(tried));
+    finish_best(tried, base.score());
+    return tried;
+  }
+
+  /// Fits the leading explanations to the end; the rest are only there to be told from.
+  void finish_best(std::vector<Explanation>& tried, double base_score) const {
+    if (tried.empty() || tried.front().score() - base_score < 0.5 * kLeastGain) return;
+    const double bar = base_score + kWorthFinishing * (tried.front().score() - base_score);
+    parallel_for(tried.size(), options_.threads, [&](std::size_t i) {
+      if (tried[i].score() < bar) return;
+      const Session data = without_jumps(session_, tried[i].jumps);
+      const Fit& from = tried[i].fit;
+      tried[i].fit = fit(data, from.model, from.noise, from.free, fit_options_);
+    });
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
   }
 
   std::vector<Promise> worth_fitting(const std::vector<Promise>& promises) const {
