@@ -57,13 +57,16 @@ void Plant::reset(double position_m, double velocity_m_per_s, double time_s) {
 }
 
 void Plant::correct(double position_m, double velocity_m_per_s) {
-  if (terms_.rigid_backlash && state_.contact == 0) {
-    const double half = 0.5 * terms_.gap;
-    state_.motor_position_m = std::clamp(state_.motor_position_m, position_m - half, position_m + half);
-  } else {
-    state_.motor_position_m += position_m - state_.position_m;
-    state_.motor_velocity_m_per_s += velocity_m_per_s - state_.velocity_m_per_s;
-  }
+  state_.motor_position_m += position_m - state_.position_m;
+  state_.motor_velocity_m_per_s += velocity_m_per_s - state_.velocity_m_per_s;
+  state_.position_m = position_m;
+  state_.velocity_m_per_s = velocity_m_per_s;
+}
+
+void Plant::correct_from_reading(double position_m, double velocity_m_per_s) {
+  if (!terms_.rigid_backlash || state_.contact != 0) return correct(position_m, velocity_m_per_s);
+  const double half = 0.5 * terms_.gap;
+  state_.motor_position_m = std::clamp(state_.motor_position_m, position_m - half, position_m + half);
   state_.position_m = position_m;
   state_.velocity_m_per_s = velocity_m_per_s;
 }

@@ -52,9 +52,12 @@ class Plant {
 
   const PlantState& state() const { return state_; }
 
-  /// Observers correct the cart's state between ticks. The motor moves along, except inside a backlash gap, where a
-  /// reading of the cart says nothing of the motor until the gap's end takes it along.
+  /// Puts the cart at another position and speed; the motor moves along.
   void correct(double position_m, double velocity_m_per_s);
+
+  /// As `correct`, for an observer with a reading of the cart: inside a backlash gap that says nothing of the
+  /// motor, which stays where it is unless the gap's end takes it along.
+  void correct_from_reading(double position_m, double velocity_m_per_s);
 
   /// Holds `command_V` for `duration_s`; `push_m_per_s2` is an added acceleration of the cart.
   void advance(double command_V, double duration_s, double push_m_per_s2 = 0) noexcept;

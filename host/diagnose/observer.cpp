@@ -92,8 +92,8 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
     }
     const ObserverGain& gain = k < start_rows ? gains.starting : gains.settled;
     disturbance = gain.disturbance_decay * disturbance + gain.disturbance_per_s2 * error;
-    plant.correct(state.position_m + gain.position * error,
-                  state.velocity_m_per_s + gain.velocity_per_s * error);
+    plant.correct_from_reading(state.position_m + gain.position * error,
+                               state.velocity_m_per_s + gain.velocity_per_s * error);
   }
   return out;
 }
