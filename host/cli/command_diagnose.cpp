@@ -8,6 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/diagnose/diagnosis.hpp"
 #include "host/diagnose/diagnosis_json.hpp"
+#include "host/diagnose/diagnosis_page.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright::cli {
@@ -46,7 +47,7 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);
   }
   for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);
-  fmt::print("  written: {0}/diagnosis.json, {0}/model.toml\n", out);
+  fmt::print("  written: {0}/diagnosis.json, {0}/model.toml, {0}/report.html\n", out);
 }
 
 Outcome run(const Options& options) {
@@ -62,7 +63,8 @@ Outcome run(const Options& options) {
   const auto made = make_directory(options.out);
   if (!made) return tl::unexpected(made.error());
   for (const auto& [file, text] : {std::pair<std::string, std::string>{"diagnosis.json", json},
-                                   {"model.toml", model_with_intervals(diagnosis)}}) {
+                                   {"model.toml", model_with_intervals(diagnosis)},
+                                   {"report.html", diagnosis_page(diagnosis, *session, *model).to_html()}}) {
     const auto written = write_file(std::filesystem::path(options.out) / file, text);
     if (!written) return tl::unexpected(written.error());
   }

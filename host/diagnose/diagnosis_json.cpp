@@ -54,6 +54,7 @@ Json effect_json(const Effect& effect, const Model& model) {
           {"parameters", parameters},
           {"at_bound", bounds},
           {"share_of_excess_error_removed", number(effect.share_of_excess_error_removed)},
+          {"gain_nats", number(effect.gain)},
           {"where", where_json(effect.where)},
           {"statement", effect.statement}};
 }

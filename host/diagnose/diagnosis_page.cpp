@@ -1,0 +1,281 @@
+#include "host/diagnose/diagnosis_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/evaluate/replay.hpp"
+
+namespace cartwright {
+namespace {
+
+using namespace report;
+
+std::string unit_of(std::string_view key) {
+  // The unit is the last part of a name.
+  for (const auto& [ending, unit] :
+       {std::pair<std::string_view, std::string_view>{"_m_per_s2_V", "m/s² per V"},
+        {"_m_per_s2", "m/s²"},
+        {"_m_per_s", "m/s"},
+        {"_s_per_m", "s/m"},
+        {"_per_s2", "1/s²"},
+        {"_per_s", "1/s"},
+        {"_per_m", "1/m"},
+        {"_hz", "Hz"},
+        {"_rad", "rad"},
+        {"_counts", "counts"},
+        {"_V", "V"},
+        {"_s", "s"},
+        {"_m", "m"}}) {
+    if (key.ends_with(ending)) return std::string(unit);
+  }
+  return "";
+}
+
+Cell micrometres(double value_m) {
+  return Cell::number(1e6 * value_m, 3);
+}
+
+void verdict(Report& page, const Diagnosis& d) {
+  std::string detail = fmt::format(
+      "0.5 s windows of the recorded voltage: nominal model {:.3g} µm rms, refitted {:.3g} µm, with what was "
+      "found {:.3g} "
+      "µm; noise floor {:.3g} µm.",
+      1e6 * d.used.nominal, 1e6 * d.used.refitted, 1e6 * d.used.with_effects, 1e6 * d.noise_floor_m);
+  switch (d.verdict) {
+    case Verdict::no_mismatch:
+      page.verdict(Tone::good, "The model fits: nothing beyond noise.", detail);
+      return;
+    case Verdict::parameters_only:
+      page.verdict(Tone::attention, "The physics is right, its numbers are not.", detail);
+      return;
+    case Verdict::missing_physics: {
+      std::string sentence;
+      for (const Effect& effect : d.effects) sentence += (sentence.empty() ? "" : " ") + effect.statement;
+      page.verdict(Tone::attention, sentence, detail);
+      return;
+    }
+    case Verdict::unexplained:
+      page.verdict(Tone::bad, "Something is missing that no term of the vocabulary explains.",
+                   d.unexplained->why_refused + ". " + detail);
+      return;
+  }
+}
+
+Plot map_plot(const AxisMap& before, const AxisMap& after) {
+  Plot plot;
+  plot.title = before.axis + (before.parity == "odd" ? ", against the motion" : "");
+  plot.x = {before.axis, unit_of(before.axis)};
+  plot.y = {"missing push", "m/s²"};
+  plot.height_px = 190;
+  Series estimate{"refitted nominal"}, band{"chance (95 %, all axes)"}, left{"after"};
+  band.mark = Mark::band;
+  band.colour = Colour::muted;
+  estimate.mark = left.mark = Mark::step;
+  estimate.colour = Colour::warning;
+  left.colour = Colour::model;
+  const auto bin = [](Series& s, double low, double high, double value) {
+    s.x.insert(s.x.end(), {low, high});
+    s.y.insert(s.y.end(), {value, value});
+  };
+  for (std::size_t i = 0; i < before.low.size(); ++i) {
+    bin(band, before.low[i], before.high[i], 0);
+    band.low.insert(band.low.end(), {-before.band_m_per_s2[i], -before.band_m_per_s2[i]});
+    band.high.insert(band.high.end(), {before.band_m_per_s2[i], before.band_m_per_s2[i]});
+    bin(estimate, before.low[i], before.high[i], before.push_m_per_s2[i]);
+  }
+  for (std::size_t i = 0; i < after.low.size(); ++i)
+    bin(left, after.low[i], after.high[i], after.push_m_per_s2[i]);
+  plot.add(band);
+  plot.add(estimate);
+  plot.add(left);
+  return plot;
+}
+
+void where(Report& page, const Diagnosis& d) {
+  page.section("Where does the model fail?");
+  page.paragraph(
+      "The push that the refitted nominal model would need, estimated along one axis at a time without "
+      "naming any "
+      "physics. Grey is what chance alone reaches anywhere on any axis in one session of twenty.");
+  std::vector<Plot> plots;
+  std::string flat;
+  for (std::size_t i = 0; i < d.before.axes.size(); ++i) {
+    const AxisMap& map = d.before.axes[i];
+    if (map.flat()) {
+      flat += fmt::format("{}{}{}", flat.empty() ? "" : ", ", map.axis,
+                          map.parity == "odd" ? " (against the motion)" : "");
+      continue;
+    }
+    plots.push_back(map_plot(map, d.after.axes[i]));
+  }
+  if (!plots.empty()) page.plots(plots, 2);
+  if (!flat.empty()) page.note("Looked at and flat: " + flat + ".");
+  if (d.before.line.gain > 10) {
+    page.paragraph(
+        fmt::format("A line at {:.3g} Hz stands in the spectrum of the errors.", d.before.line.frequency_hz));
+  }
+  if (d.before.repeat_z != 0) {
+    page.note(
+        fmt::format("Repeats of the same reference have {:.0f} % of the smoothed error in common ({:.1f} "
+                    "standard errors).",
+                    100 * std::max(0.0, d.before.repeat_correlation), d.before.repeat_z));
+  }
+}
+
+void what(Report& page, const Diagnosis& d) {
+  page.section("What was left out?");
+  if (d.effects.empty()) {
+    page.paragraph(d.verdict == Verdict::unexplained ? "No named effect is adequate."
+                                                     : "Nothing that stands above noise.");
+  }
+  Table effects{
+      "Effects, strongest first",
+      {{"effect"}, {"parameter"}, {"value and 95 % interval"}, {"unit"}, {"confidence"}, {"also possible"}}};
+  for (const Effect& effect : d.effects) {
+    std::string also;
+    for (const Term term : effect.equivalent)
+      also += fmt::format("{}{}", also.empty() ? "" : ", ", info(term).name);
+    bool first = true;
+    for (const auto& [id, e] : effect.parameters) {
+      const bool bound =
+          std::find(effect.at_bound.begin(), effect.at_bound.end(), id) != effect.at_bound.end();
+      effects.row({first ? std::string(info(effect.term).name) : std::string(),
+                   std::string(info(id).key) + (bound ? " (at its bound)" : ""), e, unit_of(info(id).key),
+                   first ? Cell::number(effect.confidence, 2) : Cell(), first ? also : std::string()});
+      first = false;
+    }
+  }
+  if (!effects.rows.empty()) page.table(effects);
+  Table numbers{"Numbers of the nominal terms",
+                {{"parameter"}, {"nominal"}, {"refitted alone"}, {"found, 95 % interval"}, {"unit"}}};
+  for (const NominalParameter& p : d.parameters) {
+    numbers.row(
+        {dotted_name(p.id), p.nominal, p.with_nominal_terms_only, p.refitted, unit_of(info(p.id).key)});
+  }
+  page.table(numbers);
+  if (d.unexplained) {
+    page.subsection("Unexplained");
+    page.paragraph(
+        fmt::format("{:.0f} % of what is missing stays so after the best candidate. Most of it lies along "
+                    "{}; this is the push "
+                    "itself, usable as a table.",
+                    100 * d.unexplained->share_left, d.unexplained->axis));
+    page.plot(map_plot(d.unexplained->curve, {}));
+  }
+}
+
+void overlay(Report& page, const Recording& r, const Diagnosis& d, const Model& nominal) {
+  const std::vector<double> with = replay_windows(d.model, r), without = replay_windows(nominal, r);
+  Plot plot, error;
+  plot.title = r.file + ": 0.5 s windows replayed from the recorded voltage";
+  plot.linked = error.linked = r.file;
+  plot.x = error.x = {"t_s", "s"};
+  plot.y = {"position", "mm"};
+  error.title = "error";
+  error.y = {"measured less predicted", "µm"};
+  error.height_px = 170;
+  Series measured{"measured"}, nominal_line{"nominal"}, found{"found"}, nominal_error{"nominal"},
+      found_error{"found"};
+  measured.colour = Colour::measured;
+  nominal_line.colour = nominal_error.colour = Colour::other_model;
+  found.colour = found_error.colour = Colour::model;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    measured.y.push_back(1e3 * r.y_m[k]);
+    nominal_line.y.push_back(1e3 * without[k]);
+    found.y.push_back(1e3 * with[k]);
+    nominal_error.y.push_back(1e6 * (r.y_m[k] - without[k]));
+    found_error.y.push_back(1e6 * (r.y_m[k] - with[k]));
+  }
+  for (Series* s : {&measured, &nominal_line, &found, &nominal_error, &found_error}) s->x = r.t_s;
+  plot.series = {measured, nominal_line, found};
+  error.series = {nominal_error, found_error};
+  page.plot(plot);
+  page.plot(error);
+}
+
+void better(Report& page, const Diagnosis& d, const Session& session, const Model& nominal) {
+  page.section("How much better is the model now?");
+  Table table{
+      "Root-mean-square error of 0.5 s windows, start state of each window fitted",
+      {{"recordings"}, {"nominal", "µm"}, {"refitted", "µm"}, {"with effects", "µm"}, {"noise floor", "µm"}}};
+  table.row({"used", micrometres(d.used.nominal), micrometres(d.used.refitted),
+             micrometres(d.used.with_effects).emphasise(), micrometres(d.noise_floor_m)});
+  std::string held;
+  for (const std::string& file : d.held_out_recordings) held += (held.empty() ? "" : ", ") + file;
+  if (!held.empty()) {
+    table.row({"held out of everything: " + held, micrometres(d.held_out.nominal),
+               micrometres(d.held_out.refitted), micrometres(d.held_out.with_effects).emphasise(), Cell("")});
+  }
+  page.table(table);
+  const auto shown = std::find_if(
+      session.recordings.begin(), session.recordings.end(),
+      [&](const Recording& r) { return held.empty() || r.file == d.held_out_recordings.front(); });
+  overlay(page, *shown, d, nominal);
+}
+
+void what_else(Report& page, const Diagnosis& d) {
+  page.section("What else could it be?");
+  if (!d.runner_up.empty()) {
+    Table others{"Others fitted in its place, everything else refitted alongside",
+                 {{"effect"}, {"log-likelihood behind", "nats"}, {"confidence"}},
+                 {},
+                 "Ten nats and more is beyond doubt where the noise is as fitted."};
+    for (const RunnerUp& other : d.runner_up) {
+      others.row({std::string(info(other.term).name), Cell::number(other.score_behind, 3),
+                  Cell::number(other.confidence, 2)});
+    }
+    page.table(others);
+  } else {
+    page.paragraph("No other effect was promising enough to be fitted.");
+  }
+  Plot plot;
+  plot.title = "What each start of each term promised before fitting (refitted nominal model, linear)";
+  plot.y = {"log-likelihood gain", "nats"};
+  Series bars{"promise"};
+  bars.mark = Mark::bars;
+  std::vector<Term> seen;
+  for (const Promise& promise : d.search.promises) {
+    if (std::find(seen.begin(), seen.end(), promise.term) != seen.end()) continue;
+    seen.push_back(promise.term);
+    plot.x.categories.emplace_back(info(promise.term).name);
+    bars.x.push_back(static_cast<double>(bars.x.size()));
+    bars.y.push_back(std::max(0.0, promise.log_likelihood_gain));
+    if (seen.size() >= 10) break;
+  }
+  plot.add(bars);
+  if (!seen.empty()) page.plot(plot);
+}
+
+void next(Report& page, const Diagnosis& d) {
+  page.section("What should I measure next?");
+  if (d.next_experiment) {
+    page.paragraph(fmt::format("{} separates {}; chance that it decides: {:.0f} %.",
+                               d.next_experiment->experiment, d.next_experiment->separates,
+                               100 * d.next_experiment->chance));
+    page.code("cartwright device run " + d.next_experiment->experiment);
+  } else {
+    page.paragraph("Nothing: this data leaves no two candidates that it cannot tell apart.");
+  }
+  if (!d.remarks.empty()) page.list(d.remarks);
+}
+
+}  // namespace
+
+report::Report diagnosis_page(const Diagnosis& diagnosis, const Session& session, const Model& nominal) {
+  double seconds = 0;
+  for (const Recording& r : session.recordings) seconds += r.t_s.back() - r.t_s.front();
+  Report page("Diagnosis of " + session.rig.name,
+              fmt::format("{} recordings, {:.0f} s, at {:g} Hz; Cartwright {}", session.recordings.size(),
+                          seconds, session.rig.sample_rate_hz, CARTWRIGHT_VERSION));
+  verdict(page, diagnosis);
+  where(page, diagnosis);
+  what(page, diagnosis);
+  better(page, diagnosis, session, nominal);
+  what_else(page, diagnosis);
+  next(page, diagnosis);
+  return page;
+}
+
+}  // namespace cartwright
