@@ -2,24 +2,29 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "host/cli/command.hpp"
-#include "host/identify/identify.hpp"
+#include "host/cli/identify_output.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright::cli {
 namespace {
 
-using nlohmann::ordered_json;
-
 struct Options {
   std::string session, out;
+  std::string form = "recorded";
+  bool json = false;
+  // The recorded form.
   std::string terms = "viscous_friction,coulomb_friction";
   double window_s = WeakFormOptions{}.window_s;
   bool plain = false;
-  bool json = false;
+  // The forms of one step response.
+  std::string recording, input = "error";
+  double duration_s = StepOptions{}.duration_s;
+  std::size_t intervals = 6;
+  std::optional<double> monotone_per_s, slope_per_s2;
 };
 
 Result<TermSet> terms_from(const std::string& list) {
@@ -38,88 +43,128 @@ Result<TermSet> terms_from(const std::string& list) {
   return TermSet::create(terms);
 }
 
-ordered_json bound(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+/// A number; CLI11 takes "nan" and "inf" for numbers too.
+const CLI::Validator kFinite(
+    [](const std::string& text) {
+      double value = 0;
+      const bool fine = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return fine ? std::string() : text + " is not a finite number";
+    },
+    "");
+
+/// An option that the chosen form would pass over in silence is refused.
+Result<void> check_belongs(const CLI::App& command, const std::string& form) {
+  struct Belongs {
+    const char* option;
+    const char* forms;
+  };
+  constexpr Belongs kBelongs[] = {
+      {"--terms", "recorded"},  {"--window", "recorded"},          {"--plain", "recorded"},
+      {"--input", "piecewise"}, {"--intervals", "piecewise"},      {"--monotone", "piecewise"},
+      {"--slope", "piecewise"}, {"--duration", "error piecewise"}, {"--recording", "error piecewise"},
+  };
+  for (const Belongs& one : kBelongs) {
+    if (command.count(one.option) == 0 || std::string_view(one.forms).find(form) != std::string_view::npos)
+      continue;
+    std::string forms = one.forms;
+    if (const auto space = forms.find(' '); space != std::string::npos) forms.replace(space, 1, " or ");
+    return failure(fmt::format("{} belongs to --form {}, not to --form {}", one.option, forms, form));
+  }
+  return {};
 }
 
-void print_json(const Identification& result) {
-  ordered_json document;
-  document["parameters"] = ordered_json::object();
-  ordered_json at_bound = ordered_json::array();
-  for (const ParameterEstimate& found : result.estimates) {
-    const std::string name = dotted_name(found.parameter);
-    document["parameters"][name] = {{"value", found.estimate.value},
-                                    {"low", bound(found.estimate.low)},
-                                    {"high", bound(found.estimate.high)}};
-    if (found.at_bound) at_bound.push_back(name);
-  }
-  document["not_separable"] = ordered_json::array();
-  for (const Parameter parameter : result.not_separable)
-    document["not_separable"].push_back(dotted_name(parameter));
-  document["at_bound"] = std::move(at_bound);
-  document["windows"] = result.windows;
-  document["residual_rms_m_per_s2"] = result.residual_m_per_s2;
-  document["acceleration_rms_m_per_s2"] = result.acceleration_m_per_s2;
-  fmt::print("{}\n", document.dump(2));
+template <typename Found>
+Outcome finish(const Options& options, const Result<Found>& found) {
+  if (!found) return failure(fmt::format("{}: {}", options.session, found.error().message));
+  const auto written = write_model(found->model, options.out);
+  if (!written) return tl::unexpected(written.error());
+  options.json ? print_json(*found) : print_table(*found);
+  return Status::done;
 }
 
-void print_table(const Identification& result) {
-  for (const ParameterEstimate& found : result.estimates) {
-    fmt::print("{:<52} {:>12.6g}", dotted_name(found.parameter), found.estimate.value);
-    if (found.estimate.has_interval())
-      fmt::print("   [{:.6g}, {:.6g}]", found.estimate.low, found.estimate.high);
-    if (found.at_bound) fmt::print("   at its bound");
-    fmt::print("\n");
-  }
-  if (!result.not_separable.empty()) {
-    std::vector<std::string> names;
-    for (const Parameter parameter : result.not_separable) names.push_back(dotted_name(parameter));
-    fmt::print("this data fixes only a combination of: {}\n", fmt::join(names, ", "));
-  }
-  fmt::print("{} windows, acceleration {:.4g} m/s^2 rms, of which {:.4g} is left\n", result.windows,
-             result.acceleration_m_per_s2, result.residual_m_per_s2);
-}
-
-Outcome run(const Options& options) {
+Outcome run_recorded(const Options& options, const Session& session) {
   const auto terms = terms_from(options.terms);
   if (!terms) return tl::unexpected(terms.error());
-  const auto session = read_session(options.session);
-  if (!session) return tl::unexpected(session.error());
   IdentifyOptions settings;
   settings.weak.window_s = options.window_s;
   settings.instruments = !options.plain;
-  const auto result = identify(*session, *terms, settings);
-  if (!result) return failure(fmt::format("{}: {}", options.session, result.error().message));
-  const auto written = write_model(result->model, options.out);
-  if (!written) return tl::unexpected(written.error());
-  if (options.json) {
-    print_json(*result);
-  } else {
-    print_table(*result);
+  return finish(options, identify(session, *terms, settings));
+}
+
+Outcome run_step(const Options& options, const Session& session) {
+  StepOptions settings;
+  settings.file = options.recording;
+  settings.duration_s = options.duration_s;
+  if (options.form == "piecewise") {
+    settings.intervals = options.intervals;
+    settings.input = options.input == "voltage" ? StepInput::voltage : StepInput::error;
+    settings.constraints = {options.monotone_per_s, options.slope_per_s2};
   }
-  return Status::done;
+  const auto step = find_step(session, settings);
+  if (!step) return failure(fmt::format("{}: {}", options.session, step.error().message));
+  return finish(options, identify_step(*step, settings));
+}
+
+Outcome run(const Options& options, const CLI::App& command) {
+  if (const auto fits = check_belongs(command, options.form); !fits) return tl::unexpected(fits.error());
+  const auto session = read_session(options.session);
+  if (!session) return tl::unexpected(session.error());
+  return options.form == "recorded" ? run_recorded(options, *session) : run_step(options, *session);
 }
 
 }  // namespace
 
 void add_identify(CLI::App& app, int& exit_status) {
-  CLI::App* command = app.add_subcommand("identify", "Fit the named terms to all recordings of a session");
+  CLI::App* command = app.add_subcommand("identify", "Find the numbers of a model in recordings");
   command->footer(
+      "Forms:\n"
+      "  recorded   the named terms, from the recorded voltage of all recordings at once\n"
+      "  error      gain and constant damping, from the control error of one step (Eq. 51-53)\n"
+      "  piecewise  gain, damping over equal intervals of one step, and its law of speed (Eq. 13-29, 67-71)\n"
       "Examples:\n"
       "  cartwright identify --session rig/monday --out model.toml\n"
       "  cartwright identify --session emps --terms viscous_friction,coulomb_friction,constant_force --out "
-      "emps.toml");
+      "emps.toml\n"
+      "  cartwright identify --session rig/monday --form piecewise --recording step_kp60_1.csv --out "
+      "nl.toml\n"
+      "  cartwright identify --session rig/monday --form piecewise --intervals 30 --slope 60 --out nl.toml");
   auto options = std::make_shared<Options>();
   command->add_option("--session", options->session, "directory with session.toml")->required();
-  command->add_option("--terms", options->terms, "terms to fit, besides the voltage gain")
-      ->capture_default_str();
   command->add_option("--out", options->out, "model file to write (TOML)")->required();
-  command->add_option("--window", options->window_s, "length of the test functions [s]")
+  command->add_option("--form", options->form, "recorded, error or piecewise")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"recorded", "error", "piecewise"}));
+  command->add_flag("--json", options->json, "print one JSON object instead of the table");
+  command->add_option("--terms", options->terms, "recorded: terms to fit, besides the voltage gain")
+      ->capture_default_str();
+  command->add_option("--window", options->window_s, "recorded: length of the test functions [s]")
       ->capture_default_str()
       ->check(CLI::Range(5e-3, 10.0));
-  command->add_flag("--plain", options->plain, "least squares without instruments from a simulated twin");
-  command->add_flag("--json", options->json, "print one JSON object instead of the table");
-  on_run(command, exit_status, [options] { return run(*options); });
+  command->add_flag("--plain", options->plain,
+                    "recorded: least squares without instruments from a simulated twin");
+  command->add_option("--recording", options->recording,
+                      "error, piecewise: file of the step; the first PD step where absent");
+  command->add_option("--duration", options->duration_s, "error, piecewise: time used, from the step on [s]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.02, 60.0));
+  command
+      ->add_option("--input", options->input,
+                   "piecewise: integrate the control error, or the recorded voltage (error, voltage)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"error", "voltage"}));
+  command->add_option("--intervals", options->intervals, "piecewise: number of intervals")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 400));
+  command
+      ->add_option("--monotone", options->monotone_per_s,
+                   "piecewise: damping rises by at least this much from interval to interval [1/s]")
+      ->check(kFinite);
+  command
+      ->add_option("--slope", options->slope_per_s2,
+                   "piecewise: damping changes by at most this much in time [1/s^2]")
+      ->check(kFinite)
+      ->check(CLI::NonNegativeNumber);
+  on_run(command, exit_status, [options, command] { return run(*options, *command); });
 }
 
 }  // namespace cartwright::cli

@@ -108,8 +108,8 @@ Result<StepResponse> find_step(const Session& session, const StepOptions& option
   if (options.input == StepInput::error) {
     if (clipped > 0) {
       return failure(
-          fmt::format("{}: the command is clipped in {} rows, so that the error form does not hold; use the "
-                      "recorded voltage (--input voltage)",
+          fmt::format("{}: the command is clipped in {} rows, so that the control error does not suffice; "
+                      "take the recorded voltage (--form piecewise --input voltage, or --form recorded)",
                       recording.file, clipped));
     }
     if (!(step.gains.kp_V_per_m > 0)) {
