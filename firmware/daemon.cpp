@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -59,7 +60,7 @@ struct Machine {
 };
 
 std::int64_t period_ns(const RigFile& rig) {
-  return static_cast<std::int64_t>(1e9 * rig.rig.period_s() + 0.5);
+  return std::llround(1e9 * rig.rig.period_s());
 }
 
 Result<Settings> settings_from(const Options& options) {

@@ -9,8 +9,8 @@
 
 namespace cartwright::firmware {
 
-/// Counts durations in buckets that grow by a thirty-second of a power of two (at most 3.2 % wide), from 1 ns to
-/// 68 s. One thread adds, others may read while it does. No allocation.
+/// Counts durations in buckets that grow by a thirty-second of a power of two (at most 3.2 % wide), from 1 ns
+/// to 68 s. One thread adds, others may read while it does. No allocation.
 class Histogram {
  public:
   void add(std::int64_t duration_ns) noexcept {

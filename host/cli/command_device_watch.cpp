@@ -45,7 +45,7 @@ std::string scale(double value, double low, double high) {
   constexpr int kWidth = 41;
   std::string line(kWidth, '-');
   const double part = (value - low) / (high - low);
-  if (part >= 0 && part <= 1) line[static_cast<std::size_t>(part * (kWidth - 1) + 0.5)] = '#';
+  if (part >= 0 && part <= 1) line[static_cast<std::size_t>(std::lround(part * (kWidth - 1)))] = '#';
   return line;
 }
 

@@ -117,7 +117,7 @@ Result<SineSeeds> sine_seeds(const SineProblem& problem) {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
     spacing = *middle;
-    if (2 * half_span / spacing > static_cast<double>(kGreatestGrid / 2)) {
+    if (2 * half_span / spacing > static_cast<double>(kGreatestGrid) / 2) {
       return failure(
           fmt::format("times are too uneven to look for a frequency: {} s of record, {} s between rows; "
                       "give the frequency, or a part without gaps",
