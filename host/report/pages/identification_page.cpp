@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/report/pages/damping.hpp"
 #include "host/report/pages/friction_curve.hpp"
 #include "host/report/pages/gain_pairs.hpp"
 #include "host/report/pages/limit_cycles.hpp"
@@ -77,6 +78,12 @@ ParameterColumn column_of(const RelayReport& relay) {
   return column;
 }
 
+ParameterColumn column_of(std::string heading, const StepIdentification& step) {
+  ParameterColumn column{std::move(heading), {}};
+  for (const ParameterEstimate& found : step.estimates) column.values[found.parameter] = found.estimate;
+  return column;
+}
+
 }  // namespace
 
 Report identification_page(const IdentificationPage& content) {
@@ -86,6 +93,13 @@ Report identification_page(const IdentificationPage& content) {
   std::vector<NamedModel> models = content.models;
   std::vector<ParameterColumn> columns;
   for (const NamedModel& one : models) columns.push_back(column_of(one.name, one.model));
+  const Result<StepDamping> step = step_damping(session);
+  if (step) {
+    // One step with constant damping is a stage on the way: it stands in the table, not in every plot.
+    columns.push_back(column_of("identified, one step, constant damping", step->constant));
+    columns.push_back(column_of("identified, one step, six intervals", step->piecewise));
+    models.push_back({"one step, six intervals", step->piecewise.model});
+  }
   if (relay) {
     models.push_back({"relay tests", model_of(*relay)});
     columns.push_back(column_of(*relay));
@@ -105,6 +119,13 @@ Report identification_page(const IdentificationPage& content) {
   if (content.truth) curves.push_back({"true", *content.truth, Colour::truth});
   page.section("Friction against speed");
   page.plot(friction_curves(curves, usual_top_speed_m_per_s(session)));
+
+  if (step) {
+    add_damping(page, *step, content.truth);
+  } else {
+    page.section("Damping of one step response")
+        .paragraph("Nothing from the integral method on one step: " + step.error().message + ".");
+  }
 
   add_gain_pairs(page, session, models);
   if (relay) {
