@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "host/evaluate/closed_loop.hpp"
+#include "host/report/pages/damping.hpp"
 #include "host/report/pages/friction_curve.hpp"
 #include "host/report/pages/gain_pairs.hpp"
 #include "host/report/pages/identification_page.hpp"
@@ -62,6 +63,32 @@ TEST(FrictionCurve, IsOddWithoutAPushAndHoldsTheLevelsOnEitherSide) {
   EXPECT_NEAR(curve.y[last], 10.5, 1e-12);
   for (std::size_t i = 0; i < last / 2; ++i) EXPECT_NEAR(curve.y[i], -curve.y[last - i], 1e-12);
   EXPECT_TRUE(std::isnan(curve.y[last / 2])) << "at rest friction is anything up to its level";
+}
+
+TEST(StepDamping, IsTakenFromTheErrorWhereTheCommandIsNotClippedAndElseFromTheVoltage) {
+  Session session = two_pairs_and_a_repeat();
+  const auto clipped = step_damping(session);  // the derivative's kick reaches the limit
+  ASSERT_TRUE(clipped) << clipped.error().message;
+  EXPECT_TRUE(clipped->from_voltage);
+  session.recordings.erase(session.recordings.begin());
+  const auto within = step_damping(session);
+  ASSERT_TRUE(within) << within.error().message;
+  EXPECT_FALSE(within->from_voltage);
+  EXPECT_EQ(within->constant.damping.size(), 1u);
+  EXPECT_EQ(within->piecewise.damping.size(), 6u);
+  EXPECT_NEAR(within->piecewise.model[Parameter::voltage_gain], 1.9165, 0.02 * 1.9165);
+}
+
+TEST(StepDamping, ThePageShowsItOrSaysWhyNot) {
+  Session session = two_pairs_and_a_repeat();
+  const auto page_of = [&session] { return identification_page({session, {}, {}, "test"}).to_html(); };
+  const std::string with = page_of();
+  for (const char* part : {"Law: C(v) =", "identified, one step, six intervals", "Against speed"})
+    EXPECT_NE(with.find(part), std::string::npos) << part;
+  for (Recording& recording : session.recordings) recording.experiment = "track";
+  const std::string without = page_of();
+  EXPECT_EQ(without.find("Law: C(v) ="), std::string::npos);
+  EXPECT_NE(without.find("Nothing from the integral method on one step: no recording"), std::string::npos);
 }
 
 TEST(ParametersTable, HasARowForWhateverAnyColumnHoldsAndADashWhereOneSaysNothing) {

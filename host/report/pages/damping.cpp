@@ -58,7 +58,7 @@ Plot over_time(const StepDamping& step) {
   plot.y.least = 0;
   plot.add(held_band("95 % interval", step.piecewise.damping, Colour::model));
   plot.add(held("piecewise", step.piecewise.damping, Colour::model));
-  plot.add(held("constant", step.constant.damping, Colour::other_model));
+  plot.add(held("constant", step.constant.damping, Colour::muted));
   return plot;
 }
 

@@ -96,14 +96,14 @@ Report identification_page(const IdentificationPage& content) {
   const Result<StepDamping> step = step_damping(session);
   if (step) {
     // One step with constant damping is a stage on the way: it stands in the table, not in every plot.
-    columns.push_back(column_of("identified, one step, constant damping", step->constant));
+    columns.push_back(column_of("identified, one step, constant", step->constant));
     columns.push_back(column_of("identified, one step, six intervals", step->piecewise));
-    models.push_back({"one step, six intervals", step->piecewise.model});
   }
   if (relay) {
     models.push_back({"relay tests", model_of(*relay)});
     columns.push_back(column_of(*relay));
   }
+  if (step) models.push_back({"one step, six intervals", step->piecewise.model});
   if (content.truth) columns.push_back(column_of("true", *content.truth));
   // The latest is the one that is looked at: it gets the first colour.
   for (std::size_t i = 0; i < models.size(); ++i) {
