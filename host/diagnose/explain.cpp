@@ -9,13 +9,21 @@
 namespace cartwright {
 namespace {
 
-constexpr std::size_t kTermsFitted = 6;     // most terms fitted after a screening
-constexpr std::size_t kStartsFitted = 3;    // most starts of one term
-constexpr double kLeastPromise = 4.0;       // nats, to be fitted at all
-constexpr int kRoundsOfSketch = 2;          // of physics and noise, before the best are fitted to the end
+constexpr std::size_t kTermsFitted = 5;   // most terms fitted after a screening
+constexpr std::size_t kStartsFitted = 2;  // most starts of one term
+constexpr double kLeastPromise = 4.0;     // nats, to be fitted at all
+constexpr int kRoundsOfSketch = 2;        // of physics and noise, before the best are fitted to the end
+constexpr int kIterationsOfSketch = 6;
+constexpr double kToleranceOfSketch = 2.0;  // nats
+constexpr double kNoiseStepOfSketch = 0.15;
+/// A further effect must gain this share of what the ones before it gained: less is the form of those being a
+/// little off, not physics of its own.
+constexpr double kLeastShareOfGain = 0.03;
 constexpr double kWorthFinishing = 0.3;     // of the best gain
-constexpr double kLeastShareOfBest = 0.01;  // of the best promise
-constexpr double kOutlierOverNoise = 6.0;   // errors beyond this many noise sizes count linearly
+constexpr double kLeastShareOfBest = 0.03;  // of the best promise
+/// Two masses cost ten times the time of one: fitted only where they promise to compete.
+constexpr double kLeastShareOfTwoMasses = 0.25;
+constexpr double kOutlierOverNoise = 6.0;  // errors beyond this many noise sizes count linearly
 
 double robust_size(const std::vector<double>& errors) {
   std::vector<double> sizes;
@@ -50,9 +58,9 @@ class Explainer {
       report("looking for what was left out",
              (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1));
       std::vector<Explanation> tried = next_effects(search, stage);
-      if (tried.empty() || tried.front().score() - search.best.score() < kLeastGain) {
-        break;
-      }
+      const double so_far = search.best.score() - search.refitted.score();
+      const double bar = std::max(kLeastGain, kLeastShareOfGain * so_far);
+      if (tried.empty() || tried.front().score() - search.best.score() < bar) break;
       Contest contest{
           tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
       search.best = tried.front();
@@ -89,6 +97,9 @@ class Explainer {
     const std::vector<Promise> chosen = worth_fitting(promises);
     FitOptions sketch = fit_options_;
     sketch.most_rounds = kRoundsOfSketch;
+    sketch.most_iterations = kIterationsOfSketch;
+    sketch.tolerance = kToleranceOfSketch;
+    sketch.finest_noise_step = kNoiseStepOfSketch;
     std::vector<Explanation> tried(chosen.size());
     parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
       tried[i].effects = base.effects;
@@ -99,7 +110,21 @@ class Explainer {
     if (!base.has(Term::encoder_missed_counts)) add_lost_counts(base, tried);
     tried = best_per_term(std::move(tried));
     finish_best(tried, base.score());
+    std::erase_if(tried, [this](const Explanation& one) { return !plausible(one); });
     return tried;
+  }
+
+  /// The newest effect of an explanation has numbers that its physics can have and this rig can show.
+  bool plausible(const Explanation& one) const {
+    const Term term = one.effects.back();
+    for (const FreeParameter& p : one.fit.free) {
+      if (info(p.id).term == term && p.logarithmic && one.fit.at_bound(p.id)) return false;
+    }
+    const double count = session_.rig.encoder_resolution_m;
+    if (term == Term::backlash) return one.fit.model[Parameter::backlash_gap] >= count;
+    if (term == Term::encoder_eccentricity)
+      return one.fit.model[Parameter::eccentricity_amplitude] >= 0.1 * count;
+    return true;
   }
 
   /// Fits the leading explanations to the end; the rest are only there to be told from.
@@ -122,6 +147,11 @@ class Explainer {
     for (const Promise& promise : promises) {
       const double bar = std::max(kLeastPromise, kLeastShareOfBest * promises.front().log_likelihood_gain);
       if (promise.log_likelihood_gain < bar) break;
+      const bool two_masses = promise.term == Term::backlash || promise.term == Term::flexible_coupling;
+      if (two_masses &&
+          promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain) {
+        continue;
+      }
       if (!starts.contains(promise.term) && starts.size() >= kTermsFitted) continue;
       // A second start is worth its time only where it promises nearly as much.
       if (starts[promise.term] >= kStartsFitted) continue;

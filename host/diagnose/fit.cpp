@@ -59,7 +59,7 @@ class Fitter {
   /// Compass search along and across the ridge of equal disturbance power, ratio^2 tau.
   void improve_noise(Point& at, double step) const {
     const double directions[4][2] = {{1, 0}, {-1, 0}, {-0.5, 1}, {0.5, -1}};
-    while (step > 0.04) {
+    while (step > options_.finest_noise_step) {
       bool improved = false;
       for (const auto& direction : directions) {
         Point there = at;

@@ -19,11 +19,12 @@ struct FreeParameter {
 struct FitOptions {
   double outlier_m = 0;  ///< errors beyond this count linearly (Huber); 0: every error counts by its square
   int most_rounds = 4;   ///< rounds of physics, then noise
-  int most_iterations = 8;   ///< Levenberg-Marquardt iterations in a round
-  double tolerance = 0.1;    ///< stop when the log-likelihood gains less than this
-  bool move_noise = true;    ///< fit the observer's noise ratio and correlation time alongside
-  double step_s = 1e-3;      ///< greatest inner step of the plant
-  double damping_per_s = 5;  ///< of the linear cart behind the observer's gain
+  int most_iterations = 8;          ///< Levenberg-Marquardt iterations in a round
+  double tolerance = 0.1;           ///< stop when the log-likelihood gains less than this
+  double finest_noise_step = 0.04;  ///< of the logarithms of the noise, where the pattern search ends
+  bool move_noise = true;           ///< fit the observer's noise ratio and correlation time alongside
+  double step_s = 1e-3;             ///< greatest inner step of the plant
+  double damping_per_s = 5;         ///< of the linear cart behind the observer's gain
 };
 
 /// A model fitted by the likelihood of its one-step prediction errors,
