@@ -17,8 +17,10 @@ using P = Parameter;
 
 /// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
 constexpr double kLeastParameterChange = 0.08;
-/// More than this share of what was missing still missing: the best candidate is refused.
-constexpr double kMostLeftOver = 0.2;
+/// The best candidate is refused when structure is left that chance does not make and, of the excess error of
+/// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
+constexpr double kMostLeftOfWindows = 0.2;
+constexpr double kMostLeftOfLikelihood = 0.5;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;
@@ -108,7 +110,7 @@ Session only(const Session& session, const std::vector<std::size_t>& chosen) {
   return kept;
 }
 
-/// Burst, rate and speed of lost counts, read off the bursts themselves.
+/// Burst, rate and speed of lost counts, read off the bursts themselves; `session` is the repaired one.
 std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session,
                                                         const std::vector<ReadingJump>& jumps, Model& model) {
   const double count = session.rig.encoder_resolution_m;
@@ -117,9 +119,7 @@ std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session,
   for (const ReadingJump& jump : jumps) {
     const double size = std::abs(jump.step_m) / count;
     sum += size, squares += size * size;
-    const Recording& r = session.recordings[jump.recording];
-    const std::size_t a = jump.row > 11 ? jump.row - 11 : 0, b = jump.row - 1;
-    const double speed = b > a ? std::abs(r.y_m[b] - r.y_m[a]) / (r.t_s[b] - r.t_s[a]) : 0;
+    const double speed = std::abs(velocity_at(session.recordings[jump.recording], jump.row));
     if (speed < slowest)
       second = slowest, slowest = speed;
     else
@@ -169,8 +169,8 @@ class Diagnostician {
     result_.refitted = found.refitted.fit.model;
 
     report("replaying windows", 0.88);
-    judge();
     measure(used, held, fit_options);
+    judge();
     name_effects(used);
     name_parameters();
     remark();
@@ -186,18 +186,29 @@ class Diagnostician {
   void judge() {
     const Search& found = result_.search;
     const double left = kGainOverPromise * structure_left(result_.after);
-    const double gained = found.best.score() - found.refitted.score();
-    const double share_left = left > 0 ? left / (left + std::max(gained, 0.0)) : 0;
-    const bool refused = left > 0 && share_left > kMostLeftOver;
-    if (left > 0 && (refused || share_left > 0.05)) describe_left_over(share_left, refused);
+    const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
+    const double of_likelihood = left > 0 ? left / (left + gained) : 0;
+    const double of_windows = left > 0 ? window_share_left() : 0;
+    const bool refused = of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood;
+    if (left > 0 && (refused || of_likelihood > 0.05))
+      describe_left_over(std::max(of_windows, of_likelihood), refused);
     if (refused) {
       result_.verdict = Verdict::unexplained;
       result_.model = found.refitted.fit.model;
+      result_.used.with_effects = result_.used.refitted;
+      result_.held_out.with_effects = result_.held_out.refitted;
     } else if (!found.contests.empty()) {
       result_.verdict = Verdict::missing_physics;
     } else {
       result_.verdict = values_changed() ? Verdict::parameters_only : Verdict::no_mismatch;
     }
+  }
+
+  double window_share_left() const {
+    const double floor = result_.noise_floor_m * result_.noise_floor_m;
+    const double before = result_.used.refitted * result_.used.refitted - floor;
+    const double after = result_.used.with_effects * result_.used.with_effects - floor;
+    return result_.search.contests.empty() || before <= 0 ? 1.0 : std::clamp(after / before, 0.0, 1.0);
   }
 
   bool values_changed() const {
@@ -239,15 +250,15 @@ class Diagnostician {
       WindowErrors w;
       w.nominal = window_rmse_m(nominal_, raw, options_.threads);
       w.refitted = window_rmse_m(found.refitted.fit.model, raw, options_.threads);
-      w.with_effects = result_.verdict == Verdict::missing_physics
-                           ? window_rmse_m(found.best.fit.model, mended, options_.threads)
-                           : w.refitted;
+      w.with_effects =
+          found.contests.empty() ? w.refitted : window_rmse_m(found.best.fit.model, mended, options_.threads);
       return w;
     };
     result_.used = errors(used, repaired);
     if (!held.empty()) {
       const Session out = only(session_, held);
-      result_.held_out = errors(out, out);
+      result_.held_out =
+          errors(out, found.best.has(Term::encoder_missed_counts) ? repair(out, fit_options) : out);
     }
     // The floor: the same windows on a cart that is exactly the model found, with the noise found.
     const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options.damping_per_s);
@@ -260,6 +271,14 @@ class Diagnostician {
       floor = std::sqrt(floor * floor * (1 - systematic) + noise.reading_m * noise.reading_m * systematic);
     }
     result_.noise_floor_m = std::min(floor, result_.used.with_effects);
+  }
+
+  /// Lost counts of a recording are found with the model as it stands, nothing fitted but the noise's size.
+  Session repair(const Session& out, FitOptions fit_options) const {
+    fit_options.move_noise = false;
+    const Fit& best = result_.search.best.fit;
+    return without_jumps(out,
+                         scan_jumps(out, fit(out, best.model, best.noise, {}, fit_options), fit_options));
   }
 
   void name_effects(const Session& used) {
@@ -275,7 +294,8 @@ class Diagnostician {
     for (const Contest& contest : found.contests) {
       Effect effect{contest.chosen, 0, {}, {}, {}, 0, contest.gain, where, ""};
       if (contest.chosen == Term::encoder_missed_counts) {
-        effect.parameters = lost_counts(used, found.best.jumps, result_.model);
+        effect.parameters =
+            lost_counts(without_jumps(used, found.best.jumps), found.best.jumps, result_.model);
       } else {
         for (const FreeParameter& p : found.best.fit.free) {
           if (info(p.id).term != contest.chosen) continue;

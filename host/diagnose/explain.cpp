@@ -170,7 +170,7 @@ class Explainer {
 
   void add_lost_counts(const Explanation& base, std::vector<Explanation>& tried) const {
     const std::vector<ReadingJump> jumps = scan_jumps(session_, base.fit, fit_options_);
-    if (jumps.empty()) return;
+    if (!like_lost_counts(session_, jumps)) return;
     Explanation lost = base;
     lost.effects.push_back(Term::encoder_missed_counts);
     lost.jumps = jumps;

@@ -12,7 +12,8 @@ constexpr double kDurations_s[] = {0.03, 0.06, 0.12, 0.25, 0.5, 1.0};
 constexpr std::size_t kPushesKept = 3;
 constexpr double kLeastJumpCounts = 2;
 constexpr double kLeastJumpGain = 25;  // nats: one in 1e10 looks at white noise
-constexpr double kJumpTail_s = 0.05;   // length of the template behind a jump
+constexpr double kVelocitySpan_s = 0.01;
+constexpr double kJumpTail_s = 0.05;  // length of the template behind a jump
 
 /// What the observer shows of an input until that has died away.
 template <typename Input>
@@ -156,6 +157,25 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
     }
   }
   return jumps;
+}
+
+double velocity_at(const Recording& r, std::size_t row) {
+  const double period_s = (r.t_s.back() - r.t_s.front()) / static_cast<double>(r.size() - 1);
+  const auto half = static_cast<std::size_t>(std::max(1.0, kVelocitySpan_s / (2 * period_s)));
+  const std::size_t a = row > half ? row - half : 0, b = std::min(row + half, r.size() - 1);
+  return b > a ? (r.y_m[b] - r.y_m[a]) / (r.t_s[b] - r.t_s[a]) : 0;
+}
+
+bool like_lost_counts(const Session& session, const std::vector<ReadingJump>& jumps) {
+  constexpr std::size_t kLeastJumps = 3;
+  constexpr double kMostWithTheMotion = 0.2;
+  if (jumps.size() < kLeastJumps) return false;
+  const Session repaired = without_jumps(session, jumps);
+  double with = 0;
+  for (const ReadingJump& jump : jumps) {
+    if (velocity_at(repaired.recordings[jump.recording], jump.row) * jump.step_m >= 0) ++with;
+  }
+  return with <= kMostWithTheMotion * static_cast<double>(jumps.size());
 }
 
 Session without_jumps(Session session, const std::vector<ReadingJump>& jumps) {

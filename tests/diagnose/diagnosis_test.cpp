@@ -1,0 +1,167 @@
+#include "host/diagnose/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/diagnose/independent_cart.hpp"
+
+namespace cartwright {
+namespace {
+
+using test::battery;
+using test::IndependentCart;
+using P = Parameter;
+
+/// What an engineer would have: values a few per cent off.
+Model nominal(double gain = 1.87, double viscous = 5.2, double coulomb = 0.41) {
+  return Model(gain).set(P::viscous_coefficient, viscous).set(P::coulomb_level, coulomb);
+}
+
+const Estimate* found(const Diagnosis& d, Parameter id) {
+  for (const Effect& effect : d.effects) {
+    for (const auto& [key, e] : effect.parameters) {
+      if (key == id) return &e;
+    }
+  }
+  return nullptr;
+}
+
+struct Concealed {
+  const char* name;
+  Term term;
+  Parameter parameter;
+  double truth, tolerance;  // the tolerance is relative: what a form slightly off and 32 s of data allow
+  std::function<void(IndependentCart&)> conceal;
+};
+
+std::ostream& operator<<(std::ostream& out, const Concealed& c) {
+  return out << c.name;
+}
+
+class NamesWhatWasConcealed : public testing::TestWithParam<Concealed> {};
+
+TEST_P(NamesWhatWasConcealed, AndSaysHowLargeItIs) {
+  IndependentCart cart;
+  GetParam().conceal(cart);
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(info(d.effects.front().term).name, info(GetParam().term).name);
+  EXPECT_GT(d.effects.front().confidence, 0.9);
+  const Estimate* value = found(d, GetParam().parameter);
+  ASSERT_NE(value, nullptr);
+  EXPECT_NEAR(value->value, GetParam().truth, GetParam().tolerance * std::abs(GetParam().truth));
+  // Predicts a recording that it was not chosen and not fitted with.
+  EXPECT_LT(d.held_out.with_effects, 0.5 * d.held_out.refitted);
+  EXPECT_LE(d.noise_floor_m, d.used.with_effects);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Terms, NamesWhatWasConcealed,
+    testing::Values(
+        Concealed{"constant_force", Term::constant_force, P::constant_acceleration, 0.1, 0.02,
+                  [](IndependentCart& c) { c.push = [](double, double, double) { return 0.1; }; }},
+        Concealed{"quadratic_drag", Term::quadratic_drag, P::drag_coefficient, 2, 0.03,
+                  [](IndependentCart& c) {
+                    c.push = [](double, double, double v) { return -2 * v * std::abs(v); };
+                  }},
+        Concealed{
+            "cable_spring", Term::cable_spring, P::spring_stiffness, 5, 0.03,
+            [](IndependentCart& c) { c.push = [](double, double y, double) { return -5 * (y - 0.02); }; }},
+        Concealed{"cogging", Term::cogging, P::cogging_amplitude, 0.4, 0.03,
+                  [](IndependentCart& c) {
+                    c.push = [](double, double y, double) {
+                      return 0.4 * std::sin(2 * M_PI * y / 0.021 + 1);
+                    };
+                  }},
+        Concealed{"position_dependent_friction", Term::position_dependent_friction, P::spot_peak, 0.6, 0.05,
+                  [](IndependentCart& c) {
+                    c.extra_level = [](double, double y, double, double) {
+                      return 0.6 * std::exp(-0.5 * std::pow((y - 0.05) / 0.02, 2));
+                    };
+                  }},
+        Concealed{"stribeck_friction", Term::stribeck_friction, P::stribeck_excess, 0.35, 0.05,
+                  [](IndependentCart& c) {
+                    c.extra_level = [](double, double, double v, double) {
+                      return 0.35 * std::exp(-std::pow(v / 0.05, 2));
+                    };
+                  }},
+        Concealed{"input_dead_zone", Term::input_dead_zone, P::dead_zone_half_width, 0.2, 0.03,
+                  [](IndependentCart& c) {
+                    c.amplifier = [](double u) { return std::abs(u) < 0.2 ? 0 : u - std::copysign(0.2, u); };
+                  }},
+        Concealed{"voltage_saturation", Term::voltage_saturation, P::saturation_limit, 4, 0.02,
+                  [](IndependentCart& c) {
+                    c.amplifier = [](double u) { return std::min(std::max(u, -4.0), 4.0); };
+                  }},
+        Concealed{"transport_delay", Term::transport_delay, P::transport_delay, 0.003, 0.02,
+                  [](IndependentCart& c) { c.delay_ticks = 3; }},
+        Concealed{
+            "amplifier_gain_asymmetry", Term::amplifier_gain_asymmetry, P::amplifier_gain_difference, 0.1,
+            0.03,
+            [](IndependentCart& c) { c.amplifier = [](double u) { return u > 0 ? 1.05 * u : 0.95 * u; }; }},
+        Concealed{"encoder_eccentricity", Term::encoder_eccentricity, P::eccentricity_amplitude, 1.2e-4, 0.03,
+                  [](IndependentCart& c) {
+                    c.encoder_error_m = [](double y) { return 1.2e-4 * std::sin(2 * M_PI * y / 0.04 + 0.5); };
+                  }}),
+    [](const auto& one) { return one.param.name; });
+
+class FindsNothingWhereThereIsNothing : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(FindsNothingWhereThereIsNothing, OnEffectFreeSessions) {
+  IndependentCart cart;
+  cart.seed = GetParam();
+  if (GetParam() % 2 == 0) cart.coulomb_m_per_s2 = 0.25;  // less sticking
+  const Diagnosis d = diagnose(battery(cart), nominal(1.93, 4.9, cart.coulomb_m_per_s2 * 1.03));
+  EXPECT_EQ(name(d.verdict), "no_mismatch");
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_FALSE(d.unexplained.has_value());
+  // The nominal terms come out right, whatever feedback, rounding and noise do.
+  for (const NominalParameter& p : d.parameters) {
+    const double truth = p.id == P::voltage_gain          ? cart.gain_m_per_s2_V
+                         : p.id == P::viscous_coefficient ? cart.viscous_per_s
+                                                          : cart.coulomb_m_per_s2;
+    EXPECT_NEAR(p.refitted.value, truth, 0.01 * truth) << dotted_name(p.id);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, FindsNothingWhereThereIsNothing, testing::Range<std::uint64_t>(1, 7));
+
+TEST(Diagnosis, ValuesThatAreOffAreNoMissingPhysics) {
+  const Diagnosis d = diagnose(battery({}), nominal(1.9 * 1.2));
+  EXPECT_EQ(name(d.verdict), "parameters_only");
+  EXPECT_TRUE(d.effects.empty());
+}
+
+TEST(Diagnosis, RefusesAVibrationThatNoTermExplains) {
+  IndependentCart cart;
+  cart.push = [](double t, double, double) { return 0.5 * std::sin(2 * M_PI * 9.3 * t); };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  EXPECT_TRUE(d.effects.empty());
+  ASSERT_TRUE(d.unexplained.has_value());
+  EXPECT_NEAR(d.unexplained->line.frequency_hz, 9.3, 0.3);
+}
+
+TEST(Diagnosis, RefusesFrictionThatWarmsUp) {
+  IndependentCart cart;
+  cart.extra_level = [](double t, double, double, double) { return 0.4 * std::exp(-t / 1.5); };
+  const Diagnosis d = diagnose(battery(cart), nominal(1.9, 5, 0.5));
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  ASSERT_TRUE(d.unexplained.has_value());
+  EXPECT_FALSE(d.unexplained->where.at("time_s").empty());
+}
+
+TEST(Diagnosis, NamesTwoEffectsAtOnce) {
+  IndependentCart cart;
+  cart.delay_ticks = 4;
+  cart.push = [](double, double, double) { return -0.1; };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  ASSERT_EQ(d.effects.size(), 2u);
+  EXPECT_EQ(d.effects[0].term, Term::transport_delay);
+  EXPECT_EQ(d.effects[1].term, Term::constant_force);
+}
+
+}  // namespace
+}  // namespace cartwright
