@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/diagnose/held_out.hpp"
+#include "host/diagnose/lost_counts.hpp"
 #include "host/diagnose/statement.hpp"
 #include "host/diagnose/surrogate.hpp"
 #include "host/diagnose/window_errors.hpp"
@@ -76,91 +78,32 @@ double paired_z(const Fit& better, const Fit& worse) {
   return squares > 0 ? sum / std::sqrt(squares) : 0;
 }
 
-/// The recording that is kept out of everything: of a kind that is there more than once, and not a repeat,
-/// which the noise floor needs.
-std::vector<std::size_t> choose_held_out(const Session& session) {
-  constexpr std::size_t kLeastRecordings = 4;
-  if (session.recordings.size() < kLeastRecordings) return {};
-  const auto repeated = [&](const Recording& r) {
-    return !r.repeat_of.empty() || std::any_of(session.recordings.begin(), session.recordings.end(),
-                                               [&](const Recording& o) { return o.repeat_of == r.file; });
-  };
-  for (const bool repeats_too : {false, true}) {
-    for (std::size_t n = session.recordings.size(); n-- > 0;) {
-      const Recording& r = session.recordings[n];
-      const auto like = std::count_if(session.recordings.begin(), session.recordings.end(),
-                                      [&](const Recording& o) { return o.experiment == r.experiment; });
-      if (like > 1 && (repeats_too || !repeated(r)) && r.experiment != "relay") return {n};
-    }
-  }
-  return {session.recordings.size() - 1};
-}
-
-Session without(const Session& session, const std::vector<std::size_t>& out) {
-  Session kept{session.rig, {}};
-  for (std::size_t n = 0; n < session.recordings.size(); ++n) {
-    if (std::find(out.begin(), out.end(), n) == out.end()) kept.recordings.push_back(session.recordings[n]);
-  }
-  return kept;
-}
-
-Session only(const Session& session, const std::vector<std::size_t>& chosen) {
-  Session kept{session.rig, {}};
-  for (const std::size_t n : chosen) kept.recordings.push_back(session.recordings[n]);
-  return kept;
-}
-
-/// Burst, rate and speed of lost counts, read off the bursts themselves; `session` is the repaired one.
-std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session,
-                                                        const std::vector<ReadingJump>& jumps, Model& model) {
-  const double count = session.rig.encoder_resolution_m;
-  const double n = static_cast<double>(jumps.size());
-  double sum = 0, squares = 0, slowest = 1e9, second = 1e9;
-  for (const ReadingJump& jump : jumps) {
-    const double size = std::abs(jump.step_m) / count;
-    sum += size, squares += size * size;
-    const double speed = std::abs(velocity_at(session.recordings[jump.recording], jump.row));
-    if (speed < slowest)
-      second = slowest, slowest = speed;
-    else
-      second = std::min(second, speed);
-  }
-  const double mean = sum / n,
-               spread = n > 1 ? std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1)) : mean;
-  double fast_s = 0;
-  for (const Recording& r : session.recordings) {
-    for (std::size_t k = 10; k < r.size(); ++k) {
-      const double speed = std::abs(r.y_m[k] - r.y_m[k - 10]) / (r.t_s[k] - r.t_s[k - 10]);
-      if (speed >= slowest) fast_s += r.t_s[k] - r.t_s[k - 1];
-    }
-  }
-  const double rate = fast_s > 0 ? n / fast_s : 0, rate_spread = fast_s > 0 ? std::sqrt(n) / fast_s : 0;
-  model.set(P::missed_burst, mean).set(P::missed_rate, rate).set(P::missed_speed, slowest);
-  return {
-      {P::missed_burst, {mean, mean - kNormal95 * spread, mean + kNormal95 * spread}},
-      {P::missed_rate, {rate, std::max(0.0, rate - kNormal95 * rate_spread), rate + kNormal95 * rate_spread}},
-      // The threshold lies below the slowest burst, by about the spacing of the slow ones.
-      {P::missed_speed, {slowest, std::max(0.0, slowest - 3 * (second - slowest) - 0.1 * slowest), slowest}}};
-}
-
 class Diagnostician {
  public:
   Diagnostician(const Session& session, const Model& nominal, const DiagnoseOptions& options)
       : session_(session), nominal_(nominal), options_(options) {}
 
   Diagnosis run() {
-    const std::vector<std::size_t> held = choose_held_out(session_);
-    const Session used = without(session_, held);
-    for (const std::size_t n : held) result_.held_out_recordings.push_back(session_.recordings[n].file);
+    std::vector<std::size_t> held = choose_held_out(session_);
+    Session used = without(session_, held);
     SearchOptions search;
     search.threads = options_.threads;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
     result_.search = explain(used, nominal_, search);
+    if (!held.empty() && shows_a_push(held)) {
+      result_.remarks.push_back(
+          fmt::format("{} holds something of its own, so it was used and nothing held out.",
+                      session_.recordings[held.front()].file));
+      held.clear();
+      used = session_;
+      result_.search = explain(used, nominal_, search);
+    }
+    for (const std::size_t n : held) result_.held_out_recordings.push_back(session_.recordings[n].file);
     const Search& found = result_.search;
-
-    report("locating what is left", 0.82);
     FitOptions fit_options;
     fit_options.damping_per_s = linear_damping(nominal_);
+
+    report("locating what is left", 0.82);
     const Session repaired = without_jumps(used, found.best.jumps);
     result_.before = locate(used, found.refitted.fit, fit_options, options_.threads);
     result_.after = found.contests.empty() ? result_.before
@@ -181,6 +124,18 @@ class Diagnostician {
  private:
   void report(std::string_view what, double share) const {
     if (options_.progress) options_.progress(what, share);
+  }
+
+  /// A push that happened only in the recording kept out would never be found without it.
+  bool shows_a_push(const std::vector<std::size_t>& held) const {
+    const Explanation& best = result_.search.best;
+    const Session out = only(session_, held);
+    FitOptions as_it_is;
+    as_it_is.damping_per_s = linear_damping(nominal_);
+    as_it_is.move_noise = false;
+    const Fit here = fit(out, best.fit.model, best.fit.noise, {}, as_it_is);
+    const std::vector<Promise> promises = scan_pushes(out, here, facts_of(out), as_it_is);
+    return !promises.empty() && promises.front().log_likelihood_gain > 2 * kLeastGain;
   }
 
   void judge() {

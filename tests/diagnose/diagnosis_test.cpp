@@ -153,6 +153,24 @@ TEST(Diagnosis, RefusesFrictionThatWarmsUp) {
   EXPECT_FALSE(d.unexplained->where.at("time_s").empty());
 }
 
+TEST(Diagnosis, FindsAPushInTheRecordingItWouldHaveKeptOut) {
+  Session session = battery({});
+  IndependentCart pushed;
+  pushed.push = [](double t, double, double) {
+    return t > 1.5 && t < 1.7 ? 2 * std::pow(std::sin(M_PI * (t - 1.5) / 0.2), 2) : 0.0;
+  };
+  const Session other = battery(pushed);
+  const std::string file = session.recordings.back().file;
+  session.recordings.back() = other.recordings.back();
+  const Diagnosis d = diagnose(session, nominal());
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().term, Term::external_disturbance);
+  EXPECT_EQ(d.model.disturbance_recording, file);
+  EXPECT_NEAR(d.model[P::disturbance_start], 1.5, 0.01);
+  EXPECT_NEAR(d.model[P::disturbance_peak], 2, 0.1);
+  EXPECT_TRUE(d.held_out_recordings.empty());
+}
+
 TEST(Diagnosis, NamesTwoEffectsAtOnce) {
   IndependentCart cart;
   cart.delay_ticks = 4;
