@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kBlock = 256;
 constexpr double kPi = std::numbers::pi;
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// Taylor coefficients of sin(pi r)/r and cos(pi r) in powers of r^2. |r| <= 1/2: eleven terms reach 2e-17.
 constexpr std::size_t kTerms = 11;
