@@ -28,38 +28,42 @@ Predictions predict_all(const Session& session, const std::vector<NamedModel>& m
 
 void add_fit_table(Report& page, const Session& session, const std::vector<NamedModel>& models,
                    const Predictions& predictions) {
-  Table table;
-  table.caption = "Rms error of position";
-  table.columns = {{"Recording"}};
-  for (const NamedModel& one : models) {
-    table.columns.push_back({one.name + ", closed loop", "mm"});
-    table.columns.push_back({one.name + ", 0.5 s windows", "mm"});
-    table.columns.push_back({one.name + ", open loop", "mm"});
-  }
-  std::vector<SquaredError> totals(3 * models.size());
-  for (std::size_t i = 0; i < session.recordings.size(); ++i) {
-    std::vector<Cell> cells{session.recordings[i].file};
-    for (std::size_t m = 0; m < models.size(); ++m) {
-      const Prediction& prediction = predictions[m][i];
-      const SquaredError* const errors[] = {&prediction.closed_loop, &prediction.window,
-                                            &prediction.open_loop};
-      for (std::size_t k = 0; k < 3; ++k) {
-        cells.push_back(rms_mm(*errors[k]));
-        totals[3 * m + k].add(*errors[k]);
+  struct Kind {
+    const char* caption;
+    const char* note;
+    SquaredError Prediction::*error;
+  };
+  // A table each: all in one would be wider than a page.
+  constexpr Kind kKinds[] = {
+      {"Rms error of position, closed loop",
+       "The controller re-run on the model from the recorded reference.", &Prediction::closed_loop},
+      {"Rms error of position, 0.5 s windows",
+       "The recorded voltage replayed over half a second, the start of each window fitted.",
+       &Prediction::window},
+      {"Rms error of position, open loop",
+       "The recorded voltage replayed from the start; what integrates drifts away.", &Prediction::open_loop},
+  };
+  for (const Kind& kind : kKinds) {
+    Table table;
+    table.caption = kind.caption;
+    table.note = kind.note;
+    table.columns = {{"Recording"}};
+    for (const NamedModel& one : models) table.columns.push_back({one.name, "mm"});
+    std::vector<SquaredError> totals(models.size());
+    for (std::size_t i = 0; i < session.recordings.size(); ++i) {
+      std::vector<Cell> cells{session.recordings[i].file};
+      for (std::size_t m = 0; m < models.size(); ++m) {
+        const SquaredError& error = predictions[m][i].*kind.error;
+        cells.push_back(rms_mm(error));
+        totals[m].add(error);
       }
+      table.row(std::move(cells));
     }
-    table.row(std::move(cells));
+    std::vector<Cell> all{Cell("all rows").emphasise()};
+    for (const SquaredError& total : totals) all.push_back(rms_mm(total).emphasise());
+    table.row(std::move(all));
+    page.table(table);
   }
-  std::vector<Cell> all{Cell("all rows").emphasise()};
-  for (const SquaredError& total : totals) all.push_back(rms_mm(total).emphasise());
-  table.row(std::move(all));
-  table.note =
-      "Closed loop: the controller re-run on the model from the recorded reference. Windows: the recorded "
-      "voltage "
-      "replayed over half a second, the start of each window fitted. Open loop: the recorded voltage "
-      "replayed from "
-      "the start; what integrates drifts away.";
-  page.table(table);
 }
 
 void add_recordings(Report& page, const Session& session, const std::vector<NamedModel>& models,

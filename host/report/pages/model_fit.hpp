@@ -13,7 +13,7 @@ namespace cartwright::report {
 using Predictions = std::vector<std::vector<Prediction>>;
 Predictions predict_all(const Session& session, const std::vector<NamedModel>& models);
 
-/// A table of the three errors per recording and model: closed loop, 0.5 s windows, open loop.
+/// A table per error, a row per recording and a column per model: closed loop, 0.5 s windows, open loop.
 void add_fit_table(Report& page, const Session& session, const std::vector<NamedModel>& models,
                    const Predictions& predictions);
 
