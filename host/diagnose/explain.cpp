@@ -19,6 +19,7 @@ constexpr double kNoiseStepOfSketch = 0.15;
 /// A further effect must gain this share of what the ones before it gained: less is the form of those being a
 /// little off, not physics of its own.
 constexpr double kLeastShareOfGain = 0.03;
+constexpr double kNearTheBest = 0.7;        // of the best gain
 constexpr double kWorthFinishing = 0.3;     // of the best gain
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise
 /// Two masses cost ten times the time of one: fitted only where they promise to compete.
@@ -111,7 +112,21 @@ class Explainer {
     tried = best_per_term(std::move(tried));
     finish_best(tried, base.score());
     std::erase_if(tried, [this](const Explanation& one) { return !plausible(one); });
+    put_simplest_first(tried, base.score());
     return tried;
+  }
+
+  /// A law with more numbers may lead only because it bends towards what is still missing. The simplest that
+  /// comes near goes first; what it lacks is looked for next, and if that makes it redundant it is dropped
+  /// again.
+  static void put_simplest_first(std::vector<Explanation>& tried, double base_score) {
+    if (tried.empty()) return;
+    const double bar = base_score + kNearTheBest * (tried.front().score() - base_score);
+    auto simplest = tried.begin();
+    for (auto one = tried.begin(); one != tried.end() && one->score() >= bar; ++one) {
+      if (one->fit.free.size() < simplest->fit.free.size()) simplest = one;
+    }
+    std::rotate(tried.begin(), simplest, simplest + 1);
   }
 
   /// The newest effect of an explanation has numbers that its physics can have and this rig can show.
