@@ -116,6 +116,16 @@ class Explainer {
     return tried;
   }
 
+  /// What begins before its recording is a start state that does not fit, not a push.
+  bool inside_its_recording(const Model& model) const {
+    const auto r =
+        std::find_if(session_.recordings.begin(), session_.recordings.end(),
+                     [&](const Recording& one) { return one.file == model.disturbance_recording; });
+    const double start_s = model[Parameter::disturbance_start];
+    return r != session_.recordings.end() && start_s >= r->t_s.front() &&
+           start_s + model[Parameter::disturbance_duration] <= r->t_s.back();
+  }
+
   /// A law with more numbers may lead only because it bends towards what is still missing. The simplest that
   /// comes near goes first; what it lacks is looked for next, and if that makes it redundant it is dropped
   /// again.
@@ -139,6 +149,7 @@ class Explainer {
     if (term == Term::backlash) return one.fit.model[Parameter::backlash_gap] >= count;
     if (term == Term::encoder_eccentricity)
       return one.fit.model[Parameter::eccentricity_amplitude] >= 0.1 * count;
+    if (term == Term::external_disturbance) return inside_its_recording(one.fit.model);
     return true;
   }
 
