@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "host/diagnose/basis.hpp"
 #include "host/diagnose/parallel.hpp"
 
 namespace cartwright {
@@ -25,15 +26,6 @@ constexpr double kLeastShareOfBest = 0.03;  // of the best promise
 /// Two masses cost ten times the time of one: fitted only where they promise to compete.
 constexpr double kLeastShareOfTwoMasses = 0.25;
 constexpr double kOutlierOverNoise = 6.0;  // errors beyond this many noise sizes count linearly
-
-double robust_size(const std::vector<double>& errors) {
-  std::vector<double> sizes;
-  sizes.reserve(errors.size());
-  for (const double e : errors) sizes.push_back(std::abs(e));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;
-}
 
 class Explainer {
  public:

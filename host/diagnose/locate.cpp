@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/diagnose/axes.hpp"
+#include "host/diagnose/basis.hpp"
 #include "host/diagnose/influence.hpp"
 #include "host/diagnose/parallel.hpp"
 
@@ -17,12 +18,6 @@ double chance_bar(double freedom, double upper_normal) {
   const double root = 1 - a + upper_normal * std::sqrt(a);
   return 0.5 * freedom * root * root * root;
 }
-
-struct Basis {
-  Eigen::MatrixXd q;  ///< the model's own numbers, orthonormal
-  Eigen::VectorXd e;  ///< errors with those projected out
-  double variance;
-};
 
 AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
                double damping, double looks) {
@@ -42,7 +37,7 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
       }
     }
   }
-  columns -= basis.q * (basis.q.transpose() * columns);
+  basis.project_out(columns);
   Eigen::MatrixXd h = columns.transpose() * columns;
   h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
   const Eigen::VectorXd g = columns.transpose() * basis.e;
@@ -61,7 +56,7 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
     map.low.push_back(axis.edges[at]);
     map.high.push_back(axis.edges[at + 1]);
     map.push_m_per_s2.push_back(x[b]);
-    map.band_m_per_s2.push_back(quantile * std::sqrt(std::max(inverse(b, b), 0.0) * basis.variance));
+    map.band_m_per_s2.push_back(quantile * std::sqrt(std::max(inverse(b, b), 0.0) * basis.variance_m2));
   }
   return map;
 }
@@ -196,14 +191,7 @@ Location locate(const Session& session, const Fit& fit, const FitOptions& option
   });
   const std::vector<AxisBins> axes = axes_of(session, seen);
 
-  const auto rows = static_cast<Eigen::Index>(fit.error_m.size());
-  Basis basis;
-  basis.e = Eigen::Map<const Eigen::VectorXd>(fit.error_m.data(), rows);
-  if (options.outlier_m > 0) basis.e = basis.e.cwiseMin(options.outlier_m).cwiseMax(-options.outlier_m);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
-  basis.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
-  basis.e -= basis.q * (basis.q.transpose() * basis.e);
-  basis.variance = basis.e.squaredNorm() / static_cast<double>(rows);
+  const Basis basis = basis_of(fit, options.outlier_m);
 
   double looks = 0;
   for (const AxisBins& axis : axes) looks += static_cast<double>(axis.edges.size());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/diagnose/basis.hpp"
 #include "host/diagnose/influence.hpp"
 #include "host/diagnose/scan.hpp"
 
@@ -123,10 +124,7 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
   double energy = 0;
   for (const double s : shape) energy += s * s;
   // A median-based noise size: the jumps themselves must not set the bar for finding them.
-  std::vector<double> sizes;
-  for (const double e : base.error_m) sizes.push_back(std::abs(e));
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-  const double noise = 1.4826 * sizes[sizes.size() / 2];
+  const double noise = robust_size(base.error_m);
   const double variance = noise * noise;
 
   std::vector<ReadingJump> jumps;

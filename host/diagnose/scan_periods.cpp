@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/diagnose/basis.hpp"
 #include "host/diagnose/influence.hpp"
 #include "host/diagnose/parallel.hpp"
 #include "host/diagnose/scan.hpp"
@@ -24,12 +25,9 @@ struct Peak {
 
 std::vector<Promise> scan_periods(const Session& session, const Fit& base, const SessionFacts& facts,
                                   const FitOptions& options, unsigned threads) {
-  const auto rows = static_cast<Eigen::Index>(base.error_m.size());
-  Eigen::VectorXd e = Eigen::Map<const Eigen::VectorXd>(base.error_m.data(), rows);
-  if (options.outlier_m > 0) e = e.cwiseMin(options.outlier_m).cwiseMax(-options.outlier_m);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(base.jacobian);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, base.jacobian.cols());
-  e -= q * (q.transpose() * e);
+  const Basis basis = basis_of(base, options.outlier_m);
+  const Eigen::VectorXd& e = basis.e;
+  const auto rows = e.size();
   const double ee = e.squaredNorm();
 
   const double least_period =
@@ -66,7 +64,7 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
         columns.row(row++) << e0, e1, e2, e3;
       }
     }
-    columns -= q * (q.transpose() * columns);
+    basis.project_out(columns);
     const auto gain_of = [&](Eigen::Index first) {
       const auto pair = columns.middleCols(first, 2);
       const Eigen::Matrix2d h = pair.transpose() * pair;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/diagnose/basis.hpp"
 #include "host/diagnose/parallel.hpp"
 
 namespace cartwright {
@@ -28,13 +29,9 @@ bool has_sign(Term term) {
 
 std::vector<Promise> screen(const Session& session, const Fit& base, const std::vector<Candidate>& list,
                             const FitOptions& options, unsigned threads) {
-  const auto rows = static_cast<Eigen::Index>(base.error_m.size());
-  Eigen::VectorXd e = Eigen::Map<const Eigen::VectorXd>(base.error_m.data(), rows);
-  if (options.outlier_m > 0) e = e.cwiseMin(options.outlier_m).cwiseMax(-options.outlier_m);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(base.jacobian);
-  const auto rank = base.jacobian.cols();
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, rank);
-  e -= q * (q.transpose() * e);
+  const Basis basis = basis_of(base, options.outlier_m);
+  const Eigen::VectorXd& e = basis.e;
+  const auto rows = e.size();
   const double ee = e.squaredNorm();
 
   std::vector<Promise> promises;
@@ -54,7 +51,7 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
     if (options.outlier_m > 0) {
       column = column.cwiseMin(2 * options.outlier_m).cwiseMax(-2 * options.outlier_m);
     }
-    column -= q * (q.transpose() * column);
+    basis.project_out(column);
     const double cc = column.squaredNorm();
     if (!(cc > 0)) return;
     double multiple = -column.dot(e) / cc;

@@ -5,40 +5,9 @@
 
 #include "common/model/encoder.hpp"
 #include "common/model/plant.hpp"
+#include "host/evaluate/control_law.hpp"
 
 namespace cartwright {
-namespace {
-
-/// Any of the control laws, as one function of the row and the reading.
-class Command {
- public:
-  Command(const Rig& rig, const Recording& recording)
-      : recording_(recording),
-        pd_(std::get_if<PdGains>(&recording.controller) ? std::get<PdGains>(recording.controller) : PdGains{},
-            rig.period_s(), rig.voltage_limit_V),
-        relay_(std::get_if<DualRelayGains>(&recording.controller)
-                   ? std::get<DualRelayGains>(recording.controller)
-                   : DualRelayGains{},
-               rig.period_s(), rig.voltage_limit_V) {}
-
-  double at(std::size_t row, double reading_m) {
-    if (std::holds_alternative<PdGains>(recording_.controller)) {
-      return pd_.update(recording_.r_m[row], reading_m, recording_.added_V(row));
-    }
-    if (std::holds_alternative<DualRelayGains>(recording_.controller)) {
-      return relay_.update(recording_.r_m[row], reading_m, recording_.added_V(row));
-    }
-    return recording_.u_V[row];
-  }
-
- private:
-  const Recording& recording_;
-  PdController pd_;
-  DualRelayController relay_;
-};
-
-}  // namespace
-
 NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s) {
   const ObserverGain gain = observer_gain(fit.noise, rig.period_s(), damping_per_s);
   const double reading = fit.error_rms_m / std::sqrt(gain.error_variance_ratio);
@@ -60,7 +29,7 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
     Plant plant(model, options);
     plant.reset(r.y_m.front(), 0, r.t_s.front());
     Encoder encoder(model, 0, random());
-    Command command(session.rig, r);
+    ControlLaw law(session.rig, r);
     double push = noise.disturbance_m_per_s2 * normal(random);
     for (std::size_t k = 0; k < r.size(); ++k) {
       const PlantState& state = plant.state();
@@ -69,7 +38,7 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
           encoder.read(state.position_m, state.velocity_m_per_s, elapsed) + added * normal(random);
       if (count > 0) reading = count * std::round(reading / count);
       r.y_m[k] = reading;
-      r.u_V[k] = command.at(k, reading);
+      r.u_V[k] = law.command_V(k, reading);
       if (k + 1 == r.size()) break;
       const double step = r.t_s[k + 1] - r.t_s[k];
       plant.advance(r.u_V[k], step, push);

@@ -8,6 +8,8 @@
 
 #include "tests/e2e/process.hpp"
 
+#include "tests/small_disk.hpp"
+
 namespace cartwright::test {
 namespace {
 
@@ -216,32 +218,12 @@ TEST(BadInput, CommandLinesAreRefused) {
   }
 }
 
-/// While alive, programs started from here find that no file may grow beyond `bytes`: a full disk, without
-/// one.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-  }
-  ~SmallDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
-
 TEST(BadInput, AFullDiskLeavesNothingBehind) {
   const Scratch scratch;
   scratch.put("model.toml", kModel);
   scratch.put("session/session.toml", std::string(kRig) + kRecording);
   scratch.put("session/step.csv", csv());
-  const SmallDisk full(800);  // more than any message, less than any output
+  const test::SmallDisk full(800);  // more than any message, less than any output
   for (const SessionCommand& command : kSessionCommands) {
     if (std::string_view(command.name) == "identify") continue;  // but for a model, which still fits
     SCOPED_TRACE(command.name);

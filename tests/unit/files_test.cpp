@@ -1,9 +1,9 @@
 #include "host/session/files.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
+#include <unistd.h>
 
-#include <csignal>
+#include "tests/small_disk.hpp"
 
 namespace cartwright {
 namespace {
@@ -23,25 +23,6 @@ class Files : public testing::Test {
                                    testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-/// While alive no file may grow beyond `bytes`: what a full disk does, without one.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-  }
-  ~SmallDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
-
 const std::vector<NamedText> kTwo = {{"small", "text"}, {"large", std::string(100000, 'x')}};
 
 TEST_F(Files, AreAllWritten) {
@@ -52,7 +33,7 @@ TEST_F(Files, AreAllWritten) {
 
 TEST_F(Files, LeaveNothingBehindOnAFullDisk) {
   {
-    const SmallDisk full(5000);
+    const test::SmallDisk full(5000);
     EXPECT_FALSE(write_files(directory_ / "a" / "b", kTwo));
     EXPECT_FALSE(write_file(directory_ / "alone", kTwo[1].text));
   }
@@ -62,7 +43,7 @@ TEST_F(Files, LeaveNothingBehindOnAFullDisk) {
 TEST_F(Files, KeepWhatWasThereOnAFullDisk) {
   ASSERT_TRUE(write_files(directory_, {{"small", "before"}, {"large", "before"}}));
   {
-    const SmallDisk full(5000);
+    const test::SmallDisk full(5000);
     EXPECT_FALSE(write_files(directory_, kTwo));
   }
   EXPECT_EQ(read_file(directory_ / "small").value(), "before");
