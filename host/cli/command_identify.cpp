@@ -98,7 +98,8 @@ Outcome run_step(const Options& options, const Session& session) {
   if (options.form == "piecewise") {
     settings.intervals = options.intervals;
     settings.input = options.input == "voltage" ? StepInput::voltage : StepInput::error;
-    settings.constraints = {options.monotone_per_s, options.slope_per_s2};
+    settings.constraints.least_rise_per_s = options.monotone_per_s;
+    settings.constraints.greatest_slope_per_s2 = options.slope_per_s2;
   }
   const auto step = find_step(session, settings);
   if (!step) return failure(fmt::format("{}: {}", options.session, step.error().message));

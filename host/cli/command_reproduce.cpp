@@ -1,36 +1,64 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/cli/progress.hpp"
 #include "host/report/report.hpp"
 #include "host/reproduce/reproduction.hpp"
 
 namespace cartwright::cli {
 namespace {
 
-using reproduce::PaperTable;
+using reproduce::Paper;
 using reproduce::ReproduceOptions;
-
-struct Paper {
-  std::string key;
-  std::function<Result<PaperTable>(const ReproduceOptions&)> table;
-};
-
-/// A paper is one entry here.
-const std::vector<Paper>& papers() {
-  static const std::vector<Paper> all = {{"relay", reproduce::relay_paper}};
-  return all;
-}
+using reproduce::Section;
 
 struct Options {
   std::string paper, out;
+  std::vector<std::string> items;
   ReproduceOptions reproduce;
-  bool json = false;
+  bool json = false, list = false;
 };
+
+struct PaperTable {
+  std::string key, title;
+  std::vector<Section> sections;
+};
+
+/// A paper is one entry here.
+std::vector<Paper> papers() {
+  return {reproduce::damping_paper(), reproduce::relay_paper()};
+}
+
+template <typename Range, typename Key>
+std::string joined(const Range& range, Key key) {
+  std::string out;
+  for (const auto& one : range) out += (out.empty() ? "" : ", ") + key(one);
+  return out;
+}
+
+std::vector<std::string> all_items() {
+  std::vector<std::string> out;
+  for (const Paper& paper : papers()) {
+    for (const auto& experiment : paper.experiments) out.push_back(experiment.key);
+  }
+  return out;
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& text) {
+  return std::find(list.begin(), list.end(), text) != list.end();
+}
+
+void print_list() {
+  for (const Paper& paper : papers()) {
+    fmt::print("{}: {}\n", paper.key, paper.title);
+    for (const auto& experiment : paper.experiments)
+      fmt::print("  {:<14} {}\n", experiment.key, experiment.about);
+  }
+}
 
 void print_text(const PaperTable& table) {
   fmt::print("{}\n", table.title);
@@ -63,22 +91,55 @@ nlohmann::ordered_json to_json(const PaperTable& table) {
 void add_to(report::Report& page, const PaperTable& table) {
   page.section(table.title);
   for (const auto& section : table.sections) {
-    report::Table shown{.caption = section.heading,
-                        .columns = {{"item"}, {"published"}, {"obtained"}, {"why they differ"}}};
+    page.subsection(section.heading);
+    report::Table shown{.columns = {{"item"}, {"published"}, {"obtained"}, {"why they differ"}}};
     for (const auto& item : section.items) shown.row({item.item, item.published, item.obtained, item.why});
     page.table(shown);
+    if (!section.plots.empty()) page.plots(section.plots, section.plot_columns);
   }
 }
 
-Outcome run(const Options& options) {
-  std::vector<PaperTable> tables;
-  for (const Paper& paper : papers()) {
-    if (!options.paper.empty() && paper.key != options.paper) continue;
-    auto table = paper.table(options.reproduce);
-    if (!table) return failure(fmt::format("{}: {}", paper.key, table.error().message));
-    tables.push_back(*std::move(table));
+Result<PaperTable> reproduce_paper(const Paper& paper, const Options& options) {
+  PaperTable table{paper.key, paper.title, {}};
+  for (const auto& experiment : paper.experiments) {
+    if (!options.items.empty() && !contains(options.items, experiment.key)) continue;
+    ProgressBar bar(paper.key + " " + experiment.key);
+    ReproduceOptions with_bar = options.reproduce;
+    with_bar.progress = [&bar](double part) { bar.show(part); };
+    bar.show(0);
+    auto section = experiment.run(with_bar);
+    if (!section)
+      return failure(fmt::format("{} {}: {}", paper.key, experiment.key, section.error().message));
+    table.sections.push_back(*std::move(section));
   }
-  if (tables.empty()) return failure(fmt::format("--paper {}: no such paper; relay is one", options.paper));
+  return table;
+}
+
+Outcome run(const Options& options) {
+  if (options.list) {
+    print_list();
+    return Status::done;
+  }
+  const auto known = papers();
+  const auto key_of = [](const Paper& paper) { return paper.key; };
+  if (!options.paper.empty() && !contains({known[0].key, known[1].key}, options.paper)) {
+    return failure(
+        fmt::format("--paper {}: no such paper; {} are there", options.paper, joined(known, key_of)));
+  }
+  for (const std::string& item : options.items) {
+    if (contains(all_items(), item)) continue;
+    return failure(fmt::format("--item {}: no such item; {} are there", item,
+                               joined(all_items(), [](const std::string& key) { return key; })));
+  }
+  std::vector<PaperTable> tables;
+  for (const Paper& paper : known) {
+    if (!options.paper.empty() && paper.key != options.paper) continue;
+    auto table = reproduce_paper(paper, options);
+    if (!table) return tl::unexpected(table.error());
+    if (!table->sections.empty()) tables.push_back(*std::move(table));
+  }
+  if (tables.empty())
+    return failure(fmt::format("--paper {} holds none of the items asked for", options.paper));
   if (!options.out.empty()) {
     report::Report page("The papers, reproduced", "published and obtained, side by side");
     for (const PaperTable& table : tables) add_to(page, table);
@@ -100,11 +161,15 @@ void add_reproduce(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("reproduce", "Recompute what the papers print and show both");
   command->footer(
       "Examples:\n"
-      "  cartwright reproduce\n"
-      "  cartwright reproduce --paper relay --out papers.html");
+      "  cartwright reproduce --out papers.html\n"
+      "  cartwright reproduce --paper damping\n"
+      "  cartwright reproduce --item table2 --item design\n"
+      "  cartwright reproduce --list");
   auto options = std::make_shared<Options>();
-  command->add_option("--paper", options->paper, "one paper alone: relay");
-  command->add_option("--out", options->out, "write the tables to this HTML file as well");
+  command->add_option("--paper", options->paper, "one paper alone: damping or relay");
+  command->add_option("--item", options->items, "these items alone (see --list); may be repeated");
+  command->add_flag("--list", options->list, "name the papers and their items");
+  command->add_option("--out", options->out, "write tables and plots to this HTML page as well");
   command->add_option("--draws", options->reproduce.draws, "noise draws of each example")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

@@ -133,8 +133,9 @@ PiecewiseForm::PiecewiseForm(const IntegralData& data, std::size_t intervals) : 
 void PiecewiseForm::constraints_to(const DampingConstraints& constraints, MatrixXd& G, VectorXd& h) const {
   const auto steps = static_cast<Index>(intervals()) - 1;
   const Index rise = constraints.least_rise_per_s ? steps : 0;
+  const Index fall = constraints.greatest_rise_per_s ? steps : 0;
   const Index slope = constraints.greatest_slope_per_s2 ? steps : 0;
-  G = MatrixXd::Zero(rise + 2 * slope, H_.rows());
+  G = MatrixXd::Zero(rise + fall + 2 * slope, H_.rows());
   h = VectorXd::Zero(G.rows());
   const double length_s = (data_.t_s.back() - data_.t_s.front()) / static_cast<double>(intervals());
   Index at = 0;
@@ -143,6 +144,11 @@ void PiecewiseForm::constraints_to(const DampingConstraints& constraints, Matrix
       G(at, i + 3) = 1;
       G(at, i + 2) = -1;
       h[at++] = *constraints.least_rise_per_s;
+    }
+    if (constraints.greatest_rise_per_s) {
+      G(at, i + 3) = -1;
+      G(at, i + 2) = 1;
+      h[at++] = -*constraints.greatest_rise_per_s;
     }
     if (constraints.greatest_slope_per_s2) {
       for (const double sign : {1.0, -1.0}) {

@@ -36,7 +36,8 @@ ConstantFit fit_constant(const IntegralData& data);
 
 /// Inequalities between neighbouring damping values.
 struct DampingConstraints {
-  std::optional<double> least_rise_per_s;  ///< Eq. (65) as it must read: c(i+1) - c(i) >= d (ERRATA)
+  std::optional<double> least_rise_per_s;     ///< Eq. (65) as it must read: c(i+1) - c(i) >= d (ERRATA)
+  std::optional<double> greatest_rise_per_s;  ///< c(i+1) - c(i) <= this; Eq. (65) as printed with -d
   std::optional<double>
       greatest_slope_per_s2;  ///< Eq. (47): |c(i+1) - c(i)| / dt <= alpha, dt = T_end/n (ERRATA)
 };

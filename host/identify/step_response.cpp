@@ -141,9 +141,12 @@ Result<StepIdentification> identify_step(const StepResponse& step, const StepOpt
 
   const std::vector<double> fitted_m = form.predict(fit.unknowns);
   const std::vector<double>& measured_m = options.input == StepInput::error ? step.e_m : step.y_m;
-  double squares = 0;
-  for (std::size_t row = 0; row < fitted_m.size(); ++row)
+  double squares = 0, absolute = 0;
+  for (std::size_t row = 0; row < fitted_m.size(); ++row) {
     squares += std::pow(fitted_m[row] - measured_m[row], 2);
+    absolute += std::abs(fitted_m[row] - measured_m[row]);
+  }
+  out.mean_residual_m = absolute / static_cast<double>(fitted_m.size());
   out.residual_m = std::sqrt(squares / static_cast<double>(fitted_m.size()));
 
   // Wild bootstrap: the residuals of every block keep or change their sign, and the fit is done again.

@@ -48,7 +48,8 @@ struct StepIdentification {
   std::vector<ParameterEstimate> estimates;
   std::vector<DampingInterval> damping;
   KktResidual kkt;
-  double residual_m = 0;  ///< rms of fitted less measured
+  double residual_m = 0;       ///< rms of fitted less measured
+  double mean_residual_m = 0;  ///< mean absolute value of it
 };
 
 /// Cuts the step out of a session. The error form refuses a step in which the command was clipped: Eq. (59)

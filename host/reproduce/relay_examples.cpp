@@ -54,7 +54,7 @@ Result<RelayReport> experiments(const std::vector<std::pair<double, double>>& am
 
 }  // namespace
 
-Result<Section> relay_identification() {
+Result<Section> relay_identification(const ReproduceOptions&) {
   Section section{fmt::format("Relay identification, Kp {:g}, Tp {:g} s, f1 {:g}, f2 {:g}", PaperPlant::kKp,
                               PaperPlant::kTp_s, PaperPlant::kF1_V, PaperPlant::kF2),
                   {}};

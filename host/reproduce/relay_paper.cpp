@@ -3,17 +3,12 @@
 
 namespace cartwright::reproduce {
 
-Result<PaperTable> relay_paper(const ReproduceOptions& options) {
-  PaperTable table{
-      "relay", "Sine fitting and dual-relay friction identification (Dou, Chen; Tan, Lee and others)", {}};
-  auto record = relay_record_example();
-  if (!record) return tl::unexpected(record.error());
-  table.sections.push_back(*std::move(record));
-  table.sections.push_back(noise_examples(options));
-  auto identification = relay_identification();
-  if (!identification) return tl::unexpected(identification.error());
-  table.sections.push_back(*std::move(identification));
-  return table;
+Paper relay_paper() {
+  return {"relay",
+          "Sine fitting and dual-relay friction identification (Dou, Chen; Tan, Lee and others)",
+          {{"record", "memo 3.1: sine fit to a relay record", relay_record_example},
+           {"noise", "memo 3.3: sine fit in noise, side lobes", noise_examples},
+           {"relay", "memo 3.2 and paper Section 4: friction from relay tests", relay_identification}}};
 }
 
 }  // namespace cartwright::reproduce

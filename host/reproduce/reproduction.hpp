@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/result.hpp"
+#include "host/report/plot.hpp"
 
 namespace cartwright::reproduce {
 
@@ -18,21 +20,34 @@ struct Item {
 struct Section {
   std::string heading;
   std::vector<Item> items;
-};
-
-struct PaperTable {
-  std::string key;  ///< short name on the command line
-  std::string title;
-  std::vector<Section> sections;
+  std::vector<report::Plot> plots{};
+  int plot_columns = 2;
 };
 
 struct ReproduceOptions {
-  int draws = 1000;  ///< noise draws of each sinefit example
+  int draws = 1000;  ///< noise draws of each sinefit example; the cart experiments take a tenth
   unsigned long seed = 1;
+  std::function<void(double)> progress = [](double) {};  ///< share of the experiment that is done
 };
+
+/// A part of a paper that can be run alone.
+struct Experiment {
+  std::string key;  ///< short name on the command line
+  std::string about;
+  std::function<Result<Section>(const ReproduceOptions&)> run;
+};
+
+struct Paper {
+  std::string key, title;
+  std::vector<Experiment> experiments;
+};
+
+/// Wongvanich, Hann and Sirisena (2015), "Minimal modeling methodology to characterize non-linear damping in
+/// an electromechanical system".
+Paper damping_paper();
 
 /// Dou and Chen, "Optimal features extraction of noisy sinusoidal signals"; Tan, Lee and others, "Friction
 /// modeling and adaptive compensation using a relay feedback approach".
-Result<PaperTable> relay_paper(const ReproduceOptions& options);
+Paper relay_paper();
 
 }  // namespace cartwright::reproduce

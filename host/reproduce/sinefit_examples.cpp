@@ -88,7 +88,7 @@ std::string spread_text(const Spread& s, double sigma, double frequency_hz) {
 
 }  // namespace
 
-Result<Section> relay_record_example() {
+Result<Section> relay_record_example(const ReproduceOptions&) {
   // The third test of the relay paper oscillates at about 10 cycles in 3 s, as the record of Fig. 1 does.
   const Session session = relay_session(PaperPlant::model(), {{1, 0.7}}, rig_with(1000, 0), 10);
   const Recording& r = session.recordings.front();
@@ -106,7 +106,7 @@ Result<Section> relay_record_example() {
   return section;
 }
 
-Section noise_examples(const ReproduceOptions& options) {
+Result<Section> noise_examples(const ReproduceOptions& options) {
   Section section{fmt::format("sinefit memo, Section 3.3: noise, {} draws", options.draws), {}};
   for (const auto& [sigma, rough] : {std::pair{1.0, 1.25}, std::pair{2.0, 0.75}}) {
     const Comparison c = run(kFrequency_hz, sigma, rough, options);

@@ -42,7 +42,7 @@ TEST(BrentMinimum, FindsTheVertexOfAParabolaAndALocalMinimumOfAWave) {
 }
 
 TEST(Reproduction, TheRelayRecordLosesByAWrongFrequencyAsPublished) {
-  const auto section = relay_record_example();
+  const auto section = relay_record_example({});
   ASSERT_TRUE(section) << section.error().message;
   ASSERT_EQ(section->items.size(), 1U);
   EXPECT_GT(std::stod(section->items[0].obtained), 1.5);

@@ -1,0 +1,200 @@
+#include "host/reproduce/designed_responses.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/reproduce/simulated_step.hpp"
+#include "host/reproduce/step_measures.hpp"
+
+namespace cartwright::reproduce {
+namespace {
+
+constexpr double kLength_s = 1;
+
+std::string text(const std::vector<double>& y_m) {
+  const StepMeasures m = measure_step(y_m, 1e-3, kStep_m);
+  return fmt::format("rise {:.3f} s ({:.3f} s to 98 %), overshoot {:.1f} %", m.rise_s,
+                     reaches_s(y_m, 1e-3, 0.98 * kStep_m), 100 * m.overshoot);
+}
+
+StepMeasures measured(const IdealResponse& r) {
+  return measure_step(r.y_m, r.period_s, kStep_m);
+}
+
+/// With the loop as it is: sampled, limited, the derivative sees the step.
+std::vector<double> real_loop(const Model& model, GainPair gains) {
+  StepSetup setup;
+  setup.gains = gains;
+  setup.duration_s = kLength_s;
+  const Session session = simulated_step(model, setup);
+  const Recording& r = session.recordings.front();
+  return {r.y_m.begin() + static_cast<std::ptrdiff_t>(step_row(r)), r.y_m.end()};
+}
+
+report::Plot response_plot(std::string title) {
+  report::Plot plot;
+  plot.title = std::move(title);
+  plot.x = {"time after the step", "s"};
+  plot.y = {"position", "mm"};
+  return plot;
+}
+
+void draw(report::Plot& plot, std::string name, const std::vector<double>& y_m, report::Colour colour,
+          bool dashed) {
+  report::Series series{.name = std::move(name), .colour = colour, .dashed = dashed};
+  for (std::size_t i = 0; i < y_m.size(); ++i) {
+    series.x.push_back(1e-3 * static_cast<double>(i));
+    series.y.push_back(1e3 * y_m[i]);
+  }
+  plot.add(std::move(series));
+}
+
+/// Adds rise time, overshoot and curves of a linear and a non-linear model, ideal and real loop.
+void compare(Section& section, report::Plot& plot, const std::string& figure, GainPair gains,
+             const Model& linear, const Model& nonlinear, const char* published_linear,
+             const char* published_nonlinear) {
+  const IdealResponse of_linear = ideal_response(linear, gains, kLength_s);
+  const IdealResponse of_nonlinear = ideal_response(nonlinear, gains, kLength_s);
+  const auto real_linear = real_loop(linear, gains), real_nonlinear = real_loop(nonlinear, gains);
+  section.items.push_back(
+      {figure + ", linear model", published_linear, text(of_linear.y_m) + "; real loop " + text(real_linear),
+       "first with the ideal law of Eq. (62), then sampled, limited and with the derivative's kick"});
+  section.items.push_back({figure + ", non-linear model", published_nonlinear,
+                           text(of_nonlinear.y_m) + "; real loop " + text(real_nonlinear),
+                           "rise from 10 to 90 % of the reference; the paper does not say between which "
+                           "levels, and the last part "
+                           "of the way is where a cart with more damping at low speed takes its time"});
+  draw(plot, "linear model", of_linear.y_m, report::Colour::other_model, false);
+  draw(plot, "non-linear model", of_nonlinear.y_m, report::Colour::model, false);
+  draw(plot, "linear, real loop", real_linear, report::Colour::other_model, true);
+  draw(plot, "non-linear, real loop", real_nonlinear, report::Colour::model, true);
+  plot.guides.push_back({report::Guide::Along::y, 1e3 * kStep_m, "reference"});
+}
+
+/// Damping ratio and natural frequency of Eq. (62) with a linear model.
+std::pair<double, double> second_order(const PublishedLinear& m, GainPair gains) {
+  const double w = std::sqrt(m.beta_m_per_s2_V * gains.kp_V_per_m);
+  return {(m.c_per_s + m.beta_m_per_s2_V * gains.kd_V_s_per_m) / (2 * w), w};
+}
+
+double damping_ratio_for(double overshoot) {
+  const double l = std::log(overshoot);
+  return -l / std::hypot(std::numbers::pi, l);
+}
+
+/// Gains with which a linear model shows a given overshoot and rise time: the overshoot fixes the damping
+/// ratio, the rise time then scales with the natural frequency.
+GainPair gains_of_linear(const PublishedLinear& m, double overshoot, double rise_s) {
+  const double zeta = damping_ratio_for(overshoot);
+  const auto gains = [&](double w) {
+    return GainPair{w * w / m.beta_m_per_s2_V, (2 * zeta * w - m.c_per_s) / m.beta_m_per_s2_V};
+  };
+  constexpr double kTrial_rad_per_s = 10;
+  const double rise = measured(ideal_response(m.model(), gains(kTrial_rad_per_s), 2)).rise_s;
+  return gains(kTrial_rad_per_s * rise / rise_s);
+}
+
+struct Found {
+  GainPair gains{};
+  StepMeasures measures;
+};
+
+constexpr double kOvershoot = 0.001, kRise_s = 0.3;
+
+/// Kd at which the overshoot falls to the wanted share, for a given Kp: the greatest such Kd, by a scan from
+/// above and halving, because overshoot need not fall all the way.
+double kd_for_overshoot(const Model& model, double kp) {
+  const auto overshoots = [&](double kd) {
+    return measured(ideal_response(model, {kp, kd}, kLength_s)).overshoot > kOvershoot;
+  };
+  double high = 20, low = high;
+  while (low > 0 && !overshoots(low)) {
+    high = low;
+    low -= 0.25;
+  }
+  if (low <= 0) return 0;
+  for (int i = 0; i < 14; ++i) {
+    const double middle = 0.5 * (low + high);
+    (overshoots(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
+/// All Kp of the range at which the rise time crosses the wanted one on the line of wanted overshoot; the one
+/// that comes nearest if none does.
+Found find_gains(const Model& model, const ReproduceOptions& options) {
+  constexpr double kLeastKp = 20, kGreatestKp = 150, kStepKp = 2;
+  const auto at = [&](double kp) {
+    Found out;
+    out.gains = {kp, kd_for_overshoot(model, kp)};
+    out.measures = measured(ideal_response(model, out.gains, kLength_s));
+    return out;
+  };
+  Found best = at(kLeastKp), before = best;
+  for (double kp = kLeastKp + kStepKp; kp <= kGreatestKp; kp += kStepKp) {
+    const Found now = at(kp);
+    options.progress((kp - kLeastKp) / (kGreatestKp - kLeastKp));
+    const auto away = [](const Found& f) { return std::abs(f.measures.rise_s - kRise_s); };
+    if ((before.measures.rise_s > kRise_s) != (now.measures.rise_s > kRise_s)) {
+      double low = before.gains.kp_V_per_m, high = kp;
+      for (int i = 0; i < 10; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((at(middle).measures.rise_s > kRise_s) == (before.measures.rise_s > kRise_s) ? low : high) = middle;
+      }
+      const Found crossing = at(0.5 * (low + high));
+      if (away(crossing) < away(best)) best = crossing;
+    }
+    if (away(now) < away(best)) best = now;
+    before = now;
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<Section> predicted_responses(const ReproduceOptions&) {
+  Section section{"Fig. 19: predicted responses", {}};
+  report::Plot a = response_plot("Fig. 19(a): Kp = 80 V/m, Kd = 10 V s/m");
+  compare(section, a, "Fig. 19(a), Kp 80, Kd 10", {80, 10}, kPublishedLinear[1].model(),
+          kPublishedNonlinear[1].model(), "rise < 0.18 s, overshoot 1 %",
+          "rise 0.49 s, no overshoot (measured: 0.5 s, none)");
+  report::Plot b = response_plot("Fig. 19(b): Kp = 100 V/m, Kd = 0");
+  compare(section, b, "Fig. 19(b), Kp 100, Kd 0", {100, 0}, kPublishedLinear[2].model(),
+          kPublishedNonlinear[2].model(), "plot only", "plot only");
+  const auto [zeta, w] = second_order(kPublishedLinear[1], {80, 10});
+  section.items.push_back(
+      {"Fig. 19(a), damping ratio and natural frequency of Lm2 with these gains", "",
+       fmt::format("{:.3f}, {:.2f} rad/s", zeta, w),
+       fmt::format("1 % overshoot needs a damping ratio of {:.3f}: Eq. (62) with the printed "
+                   "numbers does not give the printed prediction",
+                   damping_ratio_for(0.01))});
+  section.plots = {std::move(a), std::move(b)};
+  return section;
+}
+
+Result<Section> designed_response(const ReproduceOptions& options) {
+  const Model linear = kPublishedLinear[0].model(), nonlinear = kPublishedNonlinear[0].model();
+  const Found found = find_gains(nonlinear, options);
+  Section section{"Fig. 20: gains for 0.1 % overshoot and 0.3 s rise time on NLm1", {}};
+  section.items.push_back(
+      {"gains", "not printed",
+       fmt::format("Kp {:.1f} V/m, Kd {:.2f} V s/m", found.gains.kp_V_per_m, found.gains.kd_V_s_per_m),
+       "searched over Kp 20 to 150, Kd 0 to 20"});
+  report::Plot plot = response_plot("Fig. 20: designed on NLm1");
+  compare(section, plot, "Fig. 20", found.gains, linear, nonlinear, "rise 0.21 s, overshoot 2 %",
+          "rise 0.3 s, overshoot 0.1 % (measured: 0.3 s, none)");
+  const GainPair by_linear = gains_of_linear(kPublishedLinear[0], 0.02, 0.21);
+  report::Plot other = response_plot("Fig. 20, gains from the linear model's published prediction");
+  section.items.push_back(
+      {"gains with which Lm1 shows its published rise and overshoot", "not printed",
+       fmt::format("Kp {:.1f} V/m, Kd {:.2f} V s/m", by_linear.kp_V_per_m, by_linear.kd_V_s_per_m),
+       "the other way round: if the linear prediction was right as printed"});
+  compare(section, other, "Fig. 20, these gains", by_linear, linear, nonlinear, "rise 0.21 s, overshoot 2 %",
+          "rise 0.3 s, overshoot 0.1 % (measured: 0.3 s, none)");
+  section.plots = {std::move(plot), std::move(other)};
+  return section;
+}
+
+}  // namespace cartwright::reproduce

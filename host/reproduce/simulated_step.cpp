@@ -1,0 +1,74 @@
+#include "host/reproduce/simulated_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "common/control/pd.hpp"
+#include "common/model/encoder.hpp"
+#include "common/model/plant.hpp"
+
+namespace cartwright::reproduce {
+
+Session simulated_step(const Model& cart, const StepSetup& setup) {
+  Session session;
+  session.rig.encoder_resolution_m = setup.encoder_resolution_m;
+  const double period_s = session.rig.period_s();
+  const auto before = static_cast<std::size_t>(std::lround(setup.before_s / period_s));
+  const auto rows = before + static_cast<std::size_t>(std::lround(setup.duration_s / period_s)) + 1;
+  Recording recording;
+  recording.file = "step.csv";
+  recording.experiment = "step";
+  const PdGains gains{setup.gains.kp_V_per_m, setup.gains.kd_V_s_per_m};
+  recording.controller = gains;
+  PdController law(gains, period_s, session.rig.voltage_limit_V);
+  Plant plant(cart);
+  Encoder encoder(cart, setup.encoder_resolution_m);
+  const double start_m = setup.reading_phase * setup.encoder_resolution_m;
+  plant.reset(start_m);
+  std::mt19937_64 random(setup.seed);
+  std::normal_distribution<double> noise(0, setup.noise_m > 0 ? setup.noise_m : 1);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const PlantState& state = plant.state();
+    const double error_m = setup.noise_m > 0 ? noise(random) : 0;
+    recording.t_s.push_back(static_cast<double>(row) * period_s);
+    recording.r_m.push_back(row < before ? 0 : kStep_m);
+    recording.y_m.push_back(encoder.read(state.position_m + error_m, state.velocity_m_per_s, period_s));
+    recording.u_V.push_back(law.update(recording.r_m.back(), recording.y_m.back()));
+    plant.advance(recording.u_V.back(), period_s);
+  }
+  session.recordings.push_back(std::move(recording));
+  return session;
+}
+
+std::size_t step_row(const Recording& recording) {
+  const auto moved = std::find(recording.r_m.begin(), recording.r_m.end(), kStep_m);
+  return static_cast<std::size_t>(moved - recording.r_m.begin());
+}
+
+IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_s, double period_s) {
+  const double beta = cart[Parameter::voltage_gain];
+  const double viscous = cart.has(Term::viscous_friction) ? cart[Parameter::viscous_coefficient] : 0;
+  Model loop = cart;
+  loop.set(Parameter::viscous_coefficient, viscous + beta * gains.kd_V_s_per_m)
+      .set(Parameter::spring_stiffness, beta * gains.kp_V_per_m)
+      .set(Parameter::spring_neutral, kStep_m);
+  PlantOptions options;
+  options.step_s = period_s;
+  Plant plant(loop, options);
+  plant.reset(0);
+  IdealResponse out;
+  out.period_s = period_s;
+  const auto rows = static_cast<std::size_t>(std::lround(duration_s / period_s)) + 1;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const PlantState& now = plant.state();
+    out.y_m.push_back(now.position_m);
+    out.v_m_per_s.push_back(now.velocity_m_per_s);
+    out.u_V.push_back(gains.kp_V_per_m * (kStep_m - now.position_m) -
+                      gains.kd_V_s_per_m * now.velocity_m_per_s);
+    plant.advance(0, period_s);
+  }
+  return out;
+}
+
+}  // namespace cartwright::reproduce

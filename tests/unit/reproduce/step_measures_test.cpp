@@ -1,0 +1,65 @@
+#include "host/reproduce/step_measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/reproduce/simulated_step.hpp"
+
+namespace cartwright::reproduce {
+namespace {
+
+/// Step response of w^2/(s^2 + 2 zeta w s + w^2), zeta < 1.
+std::vector<double> second_order(double zeta, double w, double period_s, double length_s) {
+  std::vector<double> y;
+  const double root = std::sqrt(1 - zeta * zeta), wd = w * root;
+  for (double t = 0; t <= length_s; t += period_s)
+    y.push_back(1 - std::exp(-zeta * w * t) * (std::cos(wd * t) + zeta / root * std::sin(wd * t)));
+  return y;
+}
+
+TEST(StepMeasures, OvershootOfASecondOrderSystemFollowsItsDampingRatio) {
+  for (const double zeta : {0.3, 0.5, 0.8}) {
+    const auto m = measure_step(second_order(zeta, 10, 1e-4, 5), 1e-4, 1);
+    EXPECT_NEAR(m.overshoot, std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta)), 1e-5);
+  }
+}
+
+TEST(StepMeasures, SettlingIsTheLastCrossingOfTheBand) {
+  const auto y = second_order(0.5, 10, 1e-4, 5);
+  const auto m = measure_step(y, 1e-4, 1);
+  const auto at = static_cast<std::size_t>(m.settling_s / 1e-4);
+  EXPECT_NEAR(std::abs(y[at] - 1), 0.01, 1e-4);
+  for (std::size_t i = at + 2; i < y.size(); ++i) ASSERT_LE(std::abs(y[i] - 1), 0.01);
+}
+
+TEST(StepMeasures, WhatNeverArrivesTakesForEver) {
+  const std::vector<double> short_of_it(100, 0.5);
+  const auto m = measure_step(short_of_it, 1e-3, 1);
+  EXPECT_TRUE(std::isinf(m.rise_s));
+  EXPECT_TRUE(std::isinf(m.settling_s));
+  EXPECT_EQ(m.overshoot, 0);
+}
+
+TEST(IdealResponse, OfALinearModelIsTheTextbookSecondOrderSystem) {
+  const auto& m = kPublishedLinear[0];
+  const IdealResponse r = ideal_response(m.model(), {60, 5}, 1);
+  const double w = std::sqrt(m.beta_m_per_s2_V * 60);
+  const double zeta = (m.c_per_s + m.beta_m_per_s2_V * 5) / (2 * w);
+  const auto exact = second_order(zeta, w, 1e-3, 1);
+  for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_NEAR(r.y_m[i], kStep_m * exact[i], 1e-8);
+  EXPECT_NEAR(r.u_V.front(), 60 * kStep_m, 1e-12);
+}
+
+TEST(SimulatedStep, ClipsTheKickOfTheDerivativeAtTheStep) {
+  StepSetup setup;
+  setup.gains = {60, 5};
+  const Session session = simulated_step(cart_at(60), setup);
+  const Recording& r = session.recordings.front();
+  EXPECT_EQ(r.u_V[step_row(r)], session.rig.voltage_limit_V);
+  EXPECT_EQ(r.u_V[step_row(r) - 1], 0);
+}
+
+}  // namespace
+}  // namespace cartwright::reproduce
