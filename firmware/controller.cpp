@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/experiments/reference_motion.hpp"
+
 namespace cartwright::firmware {
 namespace {
 
@@ -42,6 +44,14 @@ double duration_s(Run& run) noexcept {
   return with(run.experiment, [](auto& experiment) { return experiment.duration_s(); });
 }
 
+OnlineSetup online_setup(const ControllerSetup& setup) {
+  OnlineSetup out;
+  out.rows.period_s = setup.period_s;
+  out.rows.step_m = setup.bounds.resolution_m;
+  out.voltage_limit_V = setup.voltage_limit_V;
+  return out;
+}
+
 }  // namespace
 
 Controller::Controller(const ControllerSetup& setup, const hal::Devices& devices, Exchange& exchange)
@@ -54,8 +64,11 @@ Controller::Controller(const ControllerSetup& setup, const hal::Devices& devices
                     kNoLimit),
       pd_law_(setup.gains, setup.period_s, kNoLimit),
       relay_law_({}, setup.period_s, kNoLimit),
-      bump_decay_(std::exp(-setup.period_s / kBump_s)) {
+      bump_decay_(std::exp(-setup.period_s / kBump_s)),
+      compensation_(setup.period_s),
+      online_(online_setup(setup)) {
   status_.gains = setup.gains;
+  change_compensation(setup.compensation);
 }
 
 void Controller::tick(const hal::Tick& tick, double lateness_s, std::uint32_t missed) noexcept {
@@ -92,6 +105,8 @@ void Controller::tick(const hal::Tick& tick, double lateness_s, std::uint32_t mi
   devices_.amplifier->write(tick, {out.voltage_V, live});
   last_output_V_ = out.voltage_V;
   status_.limited_by = live ? out.limited_by : wire::Limited::nothing;
+  identify(tick, wanted, out.voltage_V);
+  take_notice();
   if (was_live) log(tick, lateness_s, missed, wanted, out.voltage_V);
   status_.log_frozen = status_.state == State::faulted;
   show(wanted, out.voltage_V);
@@ -132,6 +147,12 @@ Reason Controller::carry_out(const Request& request) noexcept {
     case wire::Command::activate_gains:
       change_gains(request.gains);
       return Reason::none;
+    case wire::Command::set_compensation:
+      change_compensation(request.compensation);
+      return Reason::none;
+    case wire::Command::restart_identification:
+      online_.restart();
+      return Reason::none;
     default:
       return Reason::unknown_command;
   }
@@ -165,11 +186,19 @@ void Controller::change_gains(const PdGains& gains) noexcept {
   gains_pending_ = status_.state == State::running && phase_ == Phase::record && gains_follow_;
 }
 
+/// Inside a recording without a bump, else at once.
+void Controller::change_compensation(const CompensationSetup& setup) noexcept {
+  compensation_.set(setup.law);
+  if (!recording()) compensation_.restart();
+  online_.set_model(setup.model);
+}
+
 /// Bumpless transfer: whatever the new gains would take away from or add to the voltage at this tick is made
 /// up for, and let go of slowly.
 void Controller::take_new_gains(const Wanted& wanted, double y_m) noexcept {
   gains_pending_ = false;
   gains_changed_ = true;
+  online_.end();  // the twin goes by the gains of the recording's start
   PdController before = pd_law_;
   pd_law_.set(status_.gains, setup_.period_s);
   PdController after = pd_law_;
@@ -224,10 +253,13 @@ void Controller::begin_recording() noexcept {
     relay_law_ = DualRelayController(*relay, setup_.period_s, kNoLimit);
     entry_.law = wire::Law::dual_relay;
     entry_.relay = *relay;
+    online_.end();
   } else {
     entry_.pd = own ? *own : status_.gains;
     entry_.law = wire::Law::pd;
     pd_law_ = PdController(entry_.pd, setup_.period_s, kNoLimit);
+    compensation_.restart();
+    online_.begin(entry_.pd);
   }
   exchange_.recordings[status_.recordings].write(entry_);
   ++status_.recordings;
@@ -255,10 +287,22 @@ Controller::Wanted Controller::record(double y_m) noexcept {
     return wanted;
   }
   if (gains_pending_) take_new_gains(wanted, y_m);
-  wanted.added_V += bump_V_;
+  wanted.added_V += bump_V_ + compensation_V(run, time_s, wanted, y_m);
   bump_V_ *= bump_decay_;
   wanted.voltage_V = pd_law_.update(wanted.reference_m, y_m, wanted.added_V);
   return wanted;
+}
+
+double Controller::compensation_V(Run& run, double time_s, const Wanted& wanted, double y_m) noexcept {
+  ReferenceMotion motion{wanted.reference_m, 0, 0};
+  if (compensation_.active()) {
+    with(run.experiment, [&](auto& experiment) {
+      if constexpr (kSmooth<std::decay_t<decltype(experiment)>>) {
+        motion = reference_motion(experiment, time_s, setup_.period_s);
+      }
+    });
+  }
+  return compensation_.update(motion, wanted.reference_m, y_m, status_.limited_by != wire::Limited::nothing);
 }
 
 void Controller::end_recording(Outcome outcome) noexcept {
@@ -296,78 +340,6 @@ void Controller::latch(const FaultReport& report) noexcept {
   status_.fault = report;
   status_.fault_tick = status_.tick;
   status_.fault_time_s = status_.time_s;
-}
-
-void Controller::log(const hal::Tick& tick, double lateness_s, std::uint32_t missed, const Wanted& wanted,
-                     double output_V) noexcept {
-  LogRecord record;
-  record.t_s = status_.time_s;
-  record.r_m = wanted.reference_m;
-  record.y_m = readings_.measurement.position_m;
-  record.u_V = output_V;
-  record.d_V = wanted.added_V;
-  record.i_A = readings_.amplifier.current_A;
-  record.bus_V = readings_.amplifier.bus_V;
-  record.motor_C = readings_.amplifier.motor_C;
-  const bool recording = status_.state == State::running && phase_ == Phase::record;
-  const std::uint32_t flags =
-      static_cast<std::uint32_t>(status_.state) |
-      (gains_changed_ && recording ? wire::kStatusGainsChanged : 0) |
-      (readings_.measurement.timestamp_ns < tick.now_ns ? wire::kStatusMeasurementLate : 0) |
-      (status_.state == State::running && !recording ? wire::kStatusApproaching : 0) |
-      (static_cast<std::uint32_t>(status_.fault.fault) << 8U);
-  record.status = flags;
-  record.limited_by = static_cast<double>(status_.limited_by);
-  record.missed_ticks = missed;
-  record.lateness_s = lateness_s;
-  if (devices_.simulation) {
-    const hal::Truth truth = devices_.simulation->truth();
-    record.truth_y_m = truth.position_m;
-    record.truth_v_m_per_s = truth.velocity_m_per_s;
-  }
-  exchange_.log.append(record);
-  status_.lost_rows += missed;
-  if (recording) entry_.missed_rows += missed;
-}
-
-void Controller::show(const Wanted& wanted, double output_V) noexcept {
-  status_.reference_m = wanted.reference_m;
-  status_.position_m = readings_.measurement.position_m;
-  status_.voltage_V = output_V;
-  status_.added_V = wanted.added_V;
-  status_.velocity_m_per_s = supervisor_.velocity_m_per_s();
-  status_.current_A = readings_.amplifier.current_A;
-  status_.bus_V = readings_.amplifier.bus_V;
-  status_.motor_C = readings_.amplifier.motor_C;
-  status_.inputs = static_cast<std::uint16_t>((readings_.inputs.emergency_stop ? 1U : 0U) |
-                                              (readings_.inputs.low_end_stop ? 2U : 0U) |
-                                              (readings_.inputs.high_end_stop ? 4U : 0U));
-  if (devices_.simulation) {
-    const hal::Truth truth = devices_.simulation->truth();
-    status_.truth_position_m = truth.position_m;
-    status_.truth_velocity_m_per_s = truth.velocity_m_per_s;
-  }
-  exchange_.status.write(status_);
-}
-
-ControllerSetup controller_setup(const RigFile& file) {
-  ControllerSetup setup;
-  setup.period_s = file.rig.period_s();
-  setup.voltage_limit_V = file.rig.voltage_limit_V;
-  setup.slew_limit_V_per_s = file.slew_limit_V_per_s;
-  setup.bounds.travel_low_m = file.rig.travel_m[0] + file.travel_margin_m;
-  setup.bounds.travel_high_m = file.rig.travel_m[1] - file.travel_margin_m;
-  setup.bounds.resolution_m = file.rig.encoder_resolution_m;
-  setup.bounds.greatest_speed_m_per_s = file.greatest_speed_m_per_s;
-  setup.bounds.stuck_V = file.encoder_stuck_V;
-  setup.bounds.stuck_s = file.encoder_stuck_s;
-  setup.bounds.oldest_s = file.encoder_oldest_s;
-  setup.bounds.host_timeout_s = file.host_timeout_s;
-  setup.bounds.most_missed_ticks = file.most_missed_ticks;
-  setup.approach_kp_V_per_m = file.approach_kp_V_per_m;
-  setup.approach_kd_V_s_per_m = file.approach_kd_V_s_per_m;
-  setup.approach_speed_m_per_s = file.approach_speed_m_per_s;
-  return setup;
 }
 
 }  // namespace cartwright::firmware

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "common/identify/online.hpp"
 #include "firmware/exchange/log_ring.hpp"
 #include "firmware/exchange/mailbox.hpp"
 #include "firmware/exchange/published.hpp"
@@ -33,6 +34,7 @@ struct ControllerSetup {
   double voltage_limit_V = 12, slew_limit_V_per_s = 5e4;
   Bounds bounds;
   PdGains gains{60, 0, 50, false};  ///< active at the start
+  CompensationSetup compensation;   ///< active at the start
   double approach_kp_V_per_m = 60, approach_kd_V_s_per_m = 2, approach_speed_m_per_s = 0.1;
 };
 
@@ -57,12 +59,15 @@ class Controller {
     double reference_m = 0, added_V = 0, voltage_V = 0;
   };
 
+  bool recording() const noexcept { return status_.state == wire::State::running && phase_ == Phase::record; }
   void obey(const Request& request) noexcept;
   wire::Reason carry_out(const Request& request) noexcept;
   wire::Reason arm() noexcept;
   void start(const Programme& programme) noexcept;
   void change_gains(const PdGains& gains) noexcept;
+  void change_compensation(const CompensationSetup& setup) noexcept;
   void take_new_gains(const Wanted& wanted, double y_m) noexcept;
+  double compensation_V(Run& run, double time_s, const Wanted& wanted, double y_m) noexcept;
 
   Wanted run(double y_m) noexcept;
   Wanted approach(double y_m) noexcept;
@@ -75,6 +80,8 @@ class Controller {
   void latch(const FaultReport& report) noexcept;
   void log(const hal::Tick& tick, double lateness_s, std::uint32_t missed, const Wanted& wanted,
            double output_V) noexcept;
+  void identify(const hal::Tick& tick, const Wanted& wanted, double output_V) noexcept;
+  void take_notice() noexcept;
   void show(const Wanted& wanted, double output_V) noexcept;
 
   ControllerSetup setup_;
@@ -96,6 +103,8 @@ class Controller {
   DualRelayController relay_law_;
   double bump_decay_, bump_V_ = 0;  ///< what bumpless transfer still adds
   bool relay_active_ = false, gains_follow_ = false, gains_pending_ = false, gains_changed_ = false;
+  Compensation compensation_;
+  OnlineIdentification online_;
   std::uint32_t first_recording_ = 0;
   RecordingEntry entry_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "common/wire/codec.hpp"
 
@@ -35,7 +36,11 @@ std::vector<const Register*> overlapping(std::uint16_t address, std::size_t coun
 
 RegisterFile::RegisterFile(const RigFile& rig, Exchange& exchange, const Telemetry& telemetry,
                            GainStore gains)
-    : rig_(rig), exchange_(exchange), telemetry_(telemetry), gains_(std::move(gains)) {}
+    : rig_(rig),
+      exchange_(exchange),
+      telemetry_(telemetry),
+      gains_(std::move(gains)),
+      settings_(rig.settings) {}
 
 Client RegisterFile::connect() {
   Client client;
@@ -60,6 +65,7 @@ void RegisterFile::lose_owner(Time now) {
 }
 
 void RegisterFile::watch(Time now) {
+  tell_notices();
   const std::chrono::duration<double> timeout(rig_.host_timeout_s);
   if (owner_ != 0) {
     if (now - owner_heard_ > timeout) lose_owner(now);
@@ -69,6 +75,15 @@ void RegisterFile::watch(Time now) {
   request_ = {};
   request_.command = wire::Command::disarm;
   exchange_.requests.post(request_);
+}
+
+void RegisterFile::tell_notices() {
+  const Status status = exchange_.status.read();
+  if (status.notices == notices_told_) return;
+  notices_told_ = status.notices;
+  if (status.notice != wire::Notice::none) {
+    std::fprintf(stderr, "cartwrightd: notice at %s\n", notice_sentence(status).c_str());
+  }
 }
 
 RecordingEntry RegisterFile::recording_of(const Client& client, const Status& status) const {
@@ -195,6 +210,10 @@ void RegisterFile::command() {
     const auto activated = gains_.activate(settings_.integer(Id::command_argument));
     if (!activated) return answer(Ack::refused, Reason::bad_slot, activated.error().message);
     request_.gains = gains_.slot(gains_.active())->gains;
+  } else if (wanted == Command::set_compensation) {
+    const auto setup = compensation_from(settings_, rig_);
+    if (!setup) return answer(Ack::refused, Reason::bad_setup, setup.error().message);
+    request_.compensation = *setup;
   }
   exchange_.requests.post(request_);
 }

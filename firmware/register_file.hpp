@@ -57,6 +57,7 @@ class RegisterFile {
   double number(wire::Id id, const Client& client, const Status& status,
                 const RecordingEntry& recording) const;
   double gain_number(wire::Id id) const;
+  double online_number(wire::Id id, const Status& status) const;
   double recording_number(wire::Id id, const Client& client, const RecordingEntry& recording) const;
   std::string text(wire::Id id, const Status& status, const RecordingEntry& recording) const;
   RecordingEntry recording_of(const Client& client, const Status& status) const;
@@ -64,6 +65,7 @@ class RegisterFile {
   void command();
   void answer(wire::Ack ack, wire::Reason reason, std::string text);
   void lose_owner(Time now);
+  void tell_notices();
 
   RigFile rig_;
   Exchange& exchange_;
@@ -71,6 +73,7 @@ class RegisterFile {
   GainStore gains_;
   Settings settings_;
   std::uint16_t last_client_ = 0, owner_ = 0;
+  std::uint32_t notices_told_ = 0;
   Time owner_heard_{}, unattended_since_{};
 
   // The server's own answer to the last command; `none` where the loop answers.

@@ -168,10 +168,47 @@ double RegisterFile::number(Id id, const Client& client, const Status& s,
   if (between(id, Id::active_kp_V_per_m, Id::active_derivative_on_measurement)) {
     return gain(s.gains, place(id, Id::active_kp_V_per_m));
   }
+  if (between(id, Id::live_compensation, Id::notice_time_s)) return online_number(id, s);
   if (between(id, Id::gain_slot, Id::slot2_derivative_on_measurement)) return gain_number(id);
   if (between(id, Id::recording_select, Id::recording_outcome))
     return recording_number(id, client, recording);
   return settings_[id];
+}
+
+double RegisterFile::online_number(Id id, const Status& s) const {
+  if (between(id, Id::estimate_a_V_s_per_m, Id::estimate_f_V)) {
+    if (s.compensation != CompensationMode::adaptive) return Status::kNothing;
+    return s.adaptive.value[place(id, Id::estimate_a_V_s_per_m)];
+  }
+  if (between(id, Id::identified_gain_m_per_s2_V, Id::identified_coulomb_m_per_s2_high)) {
+    const std::size_t at = place(id, Id::identified_gain_m_per_s2_V);
+    const OnlineEstimate* const all[] = {&s.identified.gain_m_per_s2_V, &s.identified.viscous_per_s,
+                                         &s.identified.coulomb_m_per_s2};
+    const OnlineEstimate& e = *all[at / 3];
+    return at % 3 == 0 ? e.value : at % 3 == 1 ? e.low : e.high;
+  }
+  switch (id) {
+    case Id::live_compensation:
+      return code(s.compensation);
+    case Id::live_compensation_V:
+      return s.compensation_V;
+    case Id::live_sliding_m_per_s:
+      return s.sliding_m_per_s;
+    case Id::estimate_limits:
+      return s.limits_met;
+    case Id::identified_windows:
+      return s.identified.windows;
+    case Id::innovation_m_per_s2:
+      return s.innovation_m_per_s2;
+    case Id::innovation_limit_m_per_s2:
+      return s.innovation_limit_m_per_s2;
+    case Id::notice:
+      return code(s.notice);
+    case Id::notice_count:
+      return s.notices;
+    default:
+      return s.notice_time_s;
+  }
 }
 
 double RegisterFile::gain_number(Id id) const {
@@ -229,6 +266,8 @@ std::string RegisterFile::text(Id id, const Status& s, const RecordingEntry& rec
       return std::string(recording.file.view());
     case Id::log_schema:
       return log_schema();
+    case Id::notice_text:
+      return notice_sentence(s);
     case Id::ack_text:
       break;
     default:

@@ -8,6 +8,7 @@
 #include "common/config/model_toml.hpp"
 #include "common/config/toml_reader.hpp"
 #include "common/files/files.hpp"
+#include "firmware/rig_file_compensation.hpp"
 
 namespace cartwright::firmware {
 namespace {
@@ -113,7 +114,7 @@ Result<RigFile> rig_file_from_toml(std::string_view text, const fs::path& source
   const auto document = parse_toml(text, source.string());
   if (!document) return tl::unexpected(document.error());
   const TomlReader root(*document, source.string());
-  const auto sections = root.only({"rig", "simulation", "model"});
+  const auto sections = root.only({"rig", "simulation", "model", "compensation"});
   if (!sections) return tl::unexpected(sections.error());
   RigFile out;
   const auto rig = rig_from_toml(root);
@@ -154,8 +155,9 @@ Result<RigFile> rig_file_from_toml(std::string_view text, const fs::path& source
         fmt::format("{}: encoder_resolution_m must be greater than 0", table.where("encoder_resolution_m")));
   }
   const fs::path directory = source.parent_path();
-  for (const auto& read : {read_words(out, table, directory), read_numbers(out, table),
-                           read_simulation(out, root, text, directory)}) {
+  for (const auto& read :
+       {read_words(out, table, directory), read_numbers(out, table),
+        read_simulation(out, root, text, directory), read_compensation(out.settings, root, directory)}) {
     if (!read) return tl::unexpected(read.error());
   }
   if (2 * out.travel_margin_m >= out.rig.travel_m[1] - out.rig.travel_m[0]) {

@@ -8,6 +8,7 @@
 #include "common/config/rig.hpp"
 #include "common/model/model.hpp"
 #include "common/result.hpp"
+#include "firmware/settings.hpp"
 
 namespace cartwright::firmware {
 
@@ -34,6 +35,8 @@ struct RigFile {
   double approach_kp_V_per_m = 60;  ///< gains and speed of the move to where a run starts
   double approach_kd_V_s_per_m = 2;
   double approach_speed_m_per_s = 0.1;
+
+  Settings settings;  ///< registers as they stand at the start: [compensation]
 
   Model model{1.9};  ///< of the simulated cart
   std::uint64_t seed = 1;

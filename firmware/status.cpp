@@ -33,4 +33,17 @@ std::string sentence(const Status& status) {
   return fmt::format("{:.3f} s: {}", status.fault_time_s, sentence(status.fault));
 }
 
+std::string notice_sentence(const Status& status) {
+  switch (status.notice) {
+    case wire::Notice::none:
+      return {};
+    case wire::Notice::model_mismatch:
+      return fmt::format("{:.1f} s: {} ({:.3g} m/s^2 unexplained, limit {:.3g})", status.notice_time_s,
+                         wire::words(status.notice), status.innovation_m_per_s2,
+                         status.innovation_limit_m_per_s2);
+    default:
+      return fmt::format("{:.1f} s: {}", status.notice_time_s, wire::words(status.notice));
+  }
+}
+
 }  // namespace cartwright::firmware

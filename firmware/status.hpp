@@ -4,9 +4,12 @@
 #include <limits>
 #include <string>
 
+#include "common/control/compensation.hpp"
 #include "common/control/dual_relay.hpp"
 #include "common/control/pd.hpp"
+#include "common/identify/online_identifier.hpp"
 #include "common/wire/codes.hpp"
+#include "firmware/compensation_setup.hpp"
 #include "firmware/programme.hpp"
 #include "firmware/supervisor.hpp"
 
@@ -35,6 +38,16 @@ struct Status {
   double current_A = kNothing, bus_V = kNothing, motor_C = kNothing;
   double truth_position_m = kNothing, truth_velocity_m_per_s = kNothing;
   PdGains gains;  ///< active
+
+  CompensationMode compensation = CompensationMode::off;
+  double compensation_V = 0, sliding_m_per_s = 0;
+  AdaptiveEstimates adaptive;
+  std::uint16_t limits_met = 0;
+  OnlineEstimates identified;
+  double innovation_m_per_s2 = kNothing, innovation_limit_m_per_s2 = kNothing;
+  wire::Notice notice = wire::Notice::none;
+  std::uint32_t notices = 0;
+  double notice_time_s = kNothing;
 };
 
 /// A stretch of the log that is one recording.
@@ -54,13 +67,16 @@ struct RecordingEntry {
 struct Request {
   std::uint16_t sequence = 0;
   wire::Command command = wire::Command::none;
-  PdGains gains;        ///< of store_gains and activate_gains, checked
-  Programme programme;  ///< of run, made ready
+  PdGains gains;                   ///< of store_gains and activate_gains, checked
+  Programme programme;             ///< of run, made ready
+  CompensationSetup compensation;  ///< of set_compensation, made ready
 };
 
 /// The fault in one line: what, when and with which numbers.
 std::string sentence(const Status& status);
 /// The same for a condition that is present before arming.
 std::string sentence(const FaultReport& report);
+/// The notice in one line; empty where there is none.
+std::string notice_sentence(const Status& status);
 
 }  // namespace cartwright::firmware

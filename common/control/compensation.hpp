@@ -56,7 +56,12 @@ class Compensation {
   double update(const ReferenceMotion& reference, double reference_m, double measured_m,
                 bool limited) noexcept;
 
-  CompensationMode mode() const noexcept { return active_.mode; }
+  /// What is in force, or about to be at the next update.
+  CompensationMode mode() const noexcept { return pending_ ? next_.mode : active_.mode; }
+  /// Whether the reference's movement matters to the next update.
+  bool active() const noexcept {
+    return active_.mode != CompensationMode::off || (pending_ && next_.mode != CompensationMode::off);
+  }
   double voltage_V() const noexcept { return voltage_V_; }
   const AdaptiveFriction& adaptive() const noexcept { return active_.adaptive; }
   /// Bits of `AdaptiveFriction::limits_met`, and the next one where the whole was held at `limit_V`. Sticky

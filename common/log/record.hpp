@@ -29,20 +29,76 @@ struct LogRecord {
   double lateness_s = 0;      ///< wake-up after the deadline
   double truth_y_m = kNothing;
   double truth_v_m_per_s = kNothing;
+  double compensation_V = kNothing;        ///< what the friction compensation adds, part of d_V
+  double sliding_m_per_s = kNothing;       ///< sliding variable of the adaptive law
+  double estimate_a_V_s_per_m = kNothing;  ///< its estimates
+  double estimate_b_V_s2_per_m = kNothing;
+  double estimate_f1_V = kNothing;
+  double estimate_f2_V_s_per_m = kNothing;
+  double estimate_f_V = kNothing;
+  double identified_gain_m_per_s2_V = kNothing;  ///< identified while running
+  double identified_viscous_per_s = kNothing;
+  double identified_coulomb_m_per_s2 = kNothing;
+  double innovation_m_per_s2 = kNothing;  ///< rms acceleration that the model leaves
 };
 
-inline constexpr std::size_t kLogColumns = 14;
+inline constexpr std::size_t kLogColumns = 25;
 
 /// Names of the columns, as in a recording's CSV.
-inline constexpr std::array<std::string_view, kLogColumns> kLogColumnNames{
-    "t_s",     "r_m",    "y_m",        "u_V",          "d_V",        "i_A",       "bus_V",
-    "motor_C", "status", "limited_by", "missed_ticks", "lateness_s", "truth_y_m", "truth_v_m_per_s"};
+inline constexpr std::array<std::string_view, kLogColumns> kLogColumnNames{"t_s",
+                                                                           "r_m",
+                                                                           "y_m",
+                                                                           "u_V",
+                                                                           "d_V",
+                                                                           "i_A",
+                                                                           "bus_V",
+                                                                           "motor_C",
+                                                                           "status",
+                                                                           "limited_by",
+                                                                           "missed_ticks",
+                                                                           "lateness_s",
+                                                                           "truth_y_m",
+                                                                           "truth_v_m_per_s",
+                                                                           "compensation_V",
+                                                                           "sliding_m_per_s",
+                                                                           "estimate_a_V_s_per_m",
+                                                                           "estimate_b_V_s2_per_m",
+                                                                           "estimate_f1_V",
+                                                                           "estimate_f2_V_s_per_m",
+                                                                           "estimate_f_V",
+                                                                           "identified_gain_m_per_s2_V",
+                                                                           "identified_viscous_per_s",
+                                                                           "identified_coulomb_m_per_s2",
+                                                                           "innovation_m_per_s2"};
 
 using LogRow = std::array<double, kLogColumns>;
 
 constexpr LogRow to_row(const LogRecord& r) noexcept {
-  return {r.t_s,     r.r_m,    r.y_m,        r.u_V,          r.d_V,        r.i_A,       r.bus_V,
-          r.motor_C, r.status, r.limited_by, r.missed_ticks, r.lateness_s, r.truth_y_m, r.truth_v_m_per_s};
+  return {r.t_s,
+          r.r_m,
+          r.y_m,
+          r.u_V,
+          r.d_V,
+          r.i_A,
+          r.bus_V,
+          r.motor_C,
+          r.status,
+          r.limited_by,
+          r.missed_ticks,
+          r.lateness_s,
+          r.truth_y_m,
+          r.truth_v_m_per_s,
+          r.compensation_V,
+          r.sliding_m_per_s,
+          r.estimate_a_V_s_per_m,
+          r.estimate_b_V_s2_per_m,
+          r.estimate_f1_V,
+          r.estimate_f2_V_s_per_m,
+          r.estimate_f_V,
+          r.identified_gain_m_per_s2_V,
+          r.identified_viscous_per_s,
+          r.identified_coulomb_m_per_s2,
+          r.innovation_m_per_s2};
 }
 
 /// The names with commas between, as the controller announces them.

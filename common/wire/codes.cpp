@@ -77,6 +77,8 @@ constexpr std::array<Entry, kCommandCount> kCommands{{
     {"store_gains", "writes the staged gains into the inactive slot, then makes that slot the active one"},
     {"activate_gains", "makes slot command_argument (1 or 2) the active one"},
     {"release", "gives up command, so that another client can take it"},
+    {"set_compensation", "uses the model and the settings of compensation_mode and after, between two ticks"},
+    {"restart_identification", "forgets what was identified while running, and lets go of the notice"},
 }};
 
 constexpr std::array<Entry, kAckCount> kAcks{{
@@ -94,6 +96,12 @@ constexpr std::array<Entry, kReasonCount> kReasons{{
     {"bad_slot", "that gain slot holds no valid gains"},
     {"not_stored", "the gain file cannot be written"},
     {"unknown_command", "no such command"},
+}};
+
+constexpr std::array<Entry, kNoticeCount> kNotices{{
+    {"none", "nothing to notice"},
+    {"model_mismatch", "what the rig does has stopped matching the model"},
+    {"compensation_limit", "the friction compensation has met a limit: its model is far from the rig"},
 }};
 
 }  // namespace
@@ -145,6 +153,12 @@ std::string_view words(Ack code) {
 }
 std::string_view words(Reason code) {
   return look_up(kReasons, code).words;
+}
+std::string_view name(Notice code) {
+  return look_up(kNotices, code).name;
+}
+std::string_view words(Notice code) {
+  return look_up(kNotices, code).words;
 }
 
 std::optional<ExperimentKind> find_experiment(std::string_view wanted) {

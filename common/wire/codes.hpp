@@ -54,9 +54,11 @@ enum class Command : std::uint16_t {
   run,
   store_gains,
   activate_gains,
-  release
+  release,
+  set_compensation,
+  restart_identification
 };
-inline constexpr std::uint16_t kCommandCount = 9;
+inline constexpr std::uint16_t kCommandCount = 11;
 
 /// Whether the command numbered `ack_sequence` was obeyed.
 enum class Ack : std::uint16_t { none, pending, done, refused };
@@ -77,11 +79,16 @@ inline constexpr std::uint16_t kReasonCount = 7;
 /// Control law of a recording.
 enum class Law : std::uint16_t { none, pd, dual_relay };
 
+/// What is worth knowing and stops nothing.
+enum class Notice : std::uint16_t { none, model_mismatch, compensation_limit };
+inline constexpr std::uint16_t kNoticeCount = 3;
+
 /// Bits of the log's `status` column: state in bits 0-3, these, and the fault's number in bits 8-15.
 inline constexpr std::uint32_t kStatusGainsChanged = 1U << 4U;
 inline constexpr std::uint32_t kStatusMeasurementLate = 1U << 5U;
 inline constexpr std::uint32_t kStatusApproaching =
     1U << 6U;  ///< moving to the start of a run, outside recordings
+inline constexpr std::uint32_t kStatusNotice = 1U << 7U;
 
 /// The identifier of a code (`armed`, `lost_host`, ...), and what it means in one sentence.
 std::string_view name(State state);
@@ -92,6 +99,7 @@ std::string_view name(Outcome outcome);
 std::string_view name(Command command);
 std::string_view name(Ack ack);
 std::string_view name(Reason reason);
+std::string_view name(Notice notice);
 std::string_view words(State state);
 std::string_view words(Fault fault);
 std::string_view words(Limited limited);
@@ -100,6 +108,7 @@ std::string_view words(Outcome outcome);
 std::string_view words(Command command);
 std::string_view words(Ack ack);
 std::string_view words(Reason reason);
+std::string_view words(Notice notice);
 
 std::optional<ExperimentKind> find_experiment(std::string_view name);
 

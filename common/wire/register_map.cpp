@@ -2,11 +2,12 @@
 #include <array>
 
 #include "common/wire/register_map.hpp"
+#include "common/wire/register_map_online.hpp"
 
 namespace cartwright::wire {
 namespace {
 
-constexpr std::array<Register, kRegisterCount> kMap{{
+constexpr std::array<Register, kRegisterCount - kOnlineRegisters.size()> kFirst{{
     {Id::map_version, "map_version", 0, Type::u16, 1, "", Access::read, 0, 0, 0,
      "version of this map; a client that knows another one should stop"},
     {Id::simulated, "simulated", 1, Type::u16, 1, "", Access::read, 0, 0, 0,
@@ -147,8 +148,10 @@ constexpr std::array<Register, kRegisterCount> kMap{{
      Access::command, 0, 1, 0, "1: the derivative sees -y instead of r - y that store_gains will write"},
     {Id::command_sequence, "command_sequence", 400, Type::u16, 1, "", Access::command, 1, 65535, 1,
      "number of the command; write it together with command_code and command_argument"},
-    {Id::command_code, "command_code", 401, Type::u16, 1, "", Access::command, 1, 8, 1,
-     "1 arm, 2 disarm, 3 stop, 4 reset, 5 run, 6 store_gains, 7 activate_gains, 8 release"},
+    {Id::command_code, "command_code", 401, Type::u16, 1, "", Access::command, 1, 10, 1,
+     "1 arm, 2 disarm, 3 stop, 4 reset, 5 run, 6 store_gains, 7 activate_gains, 8 release, 9 "
+     "set_compensation, "
+     "10 restart_identification"},
     {Id::command_argument, "command_argument", 402, Type::u16, 1, "", Access::command, 0, 65535, 0,
      "slot for activate_gains, otherwise 0"},
     {Id::ack_sequence, "ack_sequence", 403, Type::u16, 1, "", Access::read, 0, 0, 0,
@@ -277,8 +280,6 @@ constexpr std::array<Register, kRegisterCount> kMap{{
     {Id::log_lost_rows, "log_lost_rows", 810, Type::u64, 1, "", Access::read, 0, 0, 0,
      "rows lost since the start: ticks missed and rows overwritten"},
     {Id::log_capacity, "log_capacity", 814, Type::u32, 1, "", Access::read, 0, 0, 0, "rows the ring holds"},
-    {Id::log_schema, "log_schema", 816, Type::text, 110, "", Access::read, 0, 0, 0,
-     "names of the columns, comma between"},
     {Id::log_page_row, "log_page_row", 940, Type::u64, 1, "", Access::select, 0, 9007199254740992, 0,
      "write the number of a row: the window below then holds that row and those after it; each client has "
      "its own"},
@@ -286,9 +287,17 @@ constexpr std::array<Register, kRegisterCount> kMap{{
      "rows in the window; 0 when that row is not held"},
     {Id::log_page_crc, "log_page_crc", 945, Type::u32, 1, "", Access::read, 0, 0, 0,
      "CRC-32 of the bytes of those rows as they come over the wire"},
-    {Id::log_window, "log_window", 1000, Type::f64, 512, "", Access::read, 0, 0, 0,
+    {Id::log_window, "log_window", 1000, Type::f64, 800, "", Access::read, 0, 0, 0,
      "log_page_rows rows of log_columns numbers each; empty cells are NaN"},
 }};
+
+constexpr std::array<Register, kRegisterCount> whole_map() {
+  std::array<Register, kRegisterCount> map{};
+  std::copy(kFirst.begin(), kFirst.end(), map.begin());
+  std::copy(kOnlineRegisters.begin(), kOnlineRegisters.end(), map.begin() + kFirst.size());
+  return map;
+}
+constexpr auto kMap = whole_map();
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kMap.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace cartwright::wire {
 
 /// Counts up with every change of the map that an older client could misread.
-inline constexpr std::uint16_t kMapVersion = 1;
+inline constexpr std::uint16_t kMapVersion = 2;
 inline constexpr std::uint16_t kDefaultPort = 1502;
 /// Most registers one Modbus request may read.
 inline constexpr std::uint16_t kMostPerRead = 125;

@@ -74,6 +74,7 @@ std::string register_map_markdown() {
   text += codes<Command>("command_code", kCommandCount);
   text += codes<Ack>("ack_result", kAckCount);
   text += codes<Reason>("ack_reason", kReasonCount);
+  text += codes<Notice>("notice", kNoticeCount);
   return text;
 }
 

@@ -23,7 +23,7 @@ Outcome conclude(const device::Trouble& trouble) {
 
 namespace {
 
-/// Arm, disarm, stop and reset are one word to the controller each.
+/// Arm, disarm, stop, relearn and reset are one word to the controller each.
 struct Order {
   const char* name;
   const char* help;
@@ -35,6 +35,8 @@ constexpr Order kOrders[] = {
     {"arm", "Switch the amplifier on, at zero volts", wire::Command::arm, "armed"},
     {"disarm", "Switch the amplifier off", wire::Command::disarm, "disarmed"},
     {"stop", "End the running experiment; the controller stays armed", wire::Command::stop, "stopped"},
+    {"relearn", "Forget what was identified while running, and let go of its notice",
+     wire::Command::restart_identification, "forgotten"},
     {"reset", "Leave the faulted state, once the cause is gone", wire::Command::reset, "disarmed"},
 };
 
@@ -66,12 +68,14 @@ void add_device(CLI::App& app, int& exit_status) {
       "  cartwright device status\n"
       "  cartwright device run battery --out rig/monday\n"
       "  cartwright device gains flash gains.toml --host 192.168.1.20\n"
+      "  cartwright device compensation feedforward --model identified.toml\n"
       "  cartwright device watch");
   device->require_subcommand(1);
   add_device_status(*device, exit_status);
   add_device_orders(*device, exit_status);
   add_device_run(*device, exit_status);
   add_device_gains(*device, exit_status);
+  add_device_compensation(*device, exit_status);
   add_device_pull(*device, exit_status);
   add_device_watch(*device, exit_status);
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "common/wire/model_registers.hpp"
 #include "host/cli/device_command.hpp"
 
 namespace cartwright::cli {
@@ -14,7 +15,7 @@ using nlohmann::ordered_json;
 using wire::Id;
 
 void print_text(const RegisterBlock& rig, const RegisterBlock& now, const RegisterBlock& timing,
-                const RegisterBlock& log) {
+                const RegisterBlock& log, const RegisterBlock& online) {
   const auto state = now.code<wire::State>(Id::state);
   const auto line = [](std::string_view name, const std::string& value) {
     fmt::print("{:<13} {}\n", name, value);
@@ -38,6 +39,9 @@ void print_text(const RegisterBlock& rig, const RegisterBlock& now, const Regist
                                rig.value(Id::travel_low_m), rig.value(Id::travel_high_m)));
   line("voltage",
        fmt::format("{:.3f} V, limit {} V", now.value(Id::live_voltage_V), rig.value(Id::voltage_limit_V)));
+  if (const std::string notice = online.text(Id::notice_text); !notice.empty()) line("notice", notice);
+  line("compensation",
+       fmt::format("{}", wire::kCompensationNames.at(online.integer<std::size_t>(Id::live_compensation))));
   line("clock", fmt::format("{} ticks, {:.3f} s, {} missed", now.value(Id::tick), now.value(Id::time_s),
                             now.value(Id::missed_ticks)));
   line("lateness",
@@ -88,8 +92,10 @@ Outcome run(const device::Address& address, bool json) {
   if (!timing) return conclude(timing.error());
   const auto log = controller->read(Id::recording_count, Id::log_capacity);
   if (!log) return conclude(log.error());
+  const auto online = controller->read(Id::live_compensation, Id::notice_text);
+  if (!online) return conclude(online.error());
   if (!json) {
-    print_text(*rig, *now, *timing, *log);
+    print_text(*rig, *now, *timing, *log, *online);
     return Status::done;
   }
   ordered_json all;
@@ -98,6 +104,8 @@ Outcome run(const device::Address& address, bool json) {
   add_registers(all, *timing, Id::lateness_median_us, Id::step_time_greatest_us);
   add_registers(all, *log, Id::recording_count, Id::recording_count);
   add_registers(all, *log, Id::log_columns, Id::log_capacity);
+  add_registers(all, *online, Id::live_compensation, Id::notice_text);
+  all["notice"] = wire::name(online->code<wire::Notice>(Id::notice));
   fmt::print("{}\n", all.dump(2));
   return Status::done;
 }

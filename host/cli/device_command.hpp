@@ -15,10 +15,11 @@ Outcome conclude(const device::Trouble& trouble);
 
 // The commands below `cartwright device`.
 void add_device_status(CLI::App& device, int& exit_status);
-void add_device_orders(CLI::App& device, int& exit_status);  ///< arm, disarm, stop, reset
+void add_device_orders(CLI::App& device, int& exit_status);  ///< arm, disarm, stop, relearn, reset
 void add_device_run(CLI::App& device, int& exit_status);
 void add_device_gains(CLI::App& device, int& exit_status);
 void add_device_pull(CLI::App& device, int& exit_status);
+void add_device_compensation(CLI::App& device, int& exit_status);
 void add_device_watch(CLI::App& device, int& exit_status);
 
 }  // namespace cartwright::cli
