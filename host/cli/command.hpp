@@ -29,6 +29,7 @@ void on_run(CLI::App* command, int& exit_status, Run run) {
 
 // One function per command, each in a file of its own.
 void add_completion(CLI::App& app, int& exit_status);
+void add_design(CLI::App& app, int& exit_status);
 void add_diagnose(CLI::App& app, int& exit_status);
 void add_device(CLI::App& app, int& exit_status);
 void add_doctor(CLI::App& app, int& exit_status);

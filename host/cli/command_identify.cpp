@@ -76,7 +76,10 @@ Result<void> check_belongs(const CLI::App& command, const std::string& form) {
 template <typename Found>
 Outcome finish(const Options& options, const Result<Found>& found) {
   if (!found) return failure(fmt::format("{}: {}", options.session, found.error().message));
-  const auto written = write_model(found->model, options.out);
+  std::vector<ParameterInterval> intervals;
+  for (const ParameterEstimate& one : found->estimates)
+    intervals.push_back({one.parameter, one.estimate.low, one.estimate.high});
+  const auto written = write_model(found->model, options.out, intervals);
   if (!written) return tl::unexpected(written.error());
   options.json ? print_json(*found) : print_table(*found);
   return Status::done;

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   int exit_status = 0;
   add_completion(app, exit_status);
+  add_design(app, exit_status);
   add_diagnose(app, exit_status);
   add_device(app, exit_status);
   add_doctor(app, exit_status);

@@ -8,11 +8,14 @@
 namespace cartwright::design {
 namespace {
 
+constexpr double kInnerStep_s = 1e-3;
 constexpr double kHeatedThrough = 40;  // time constants: exp(-40) is nothing
 
 Plant plant_at_start(const Model& model, const StepTest& test) {
   PlantOptions options;
   options.disturbance_active = false;
+  // One inner step a tick: fourth order, events located; stiff terms choose a finer one by themselves.
+  options.step_s = kInnerStep_s;
   if (test.warm) options.heating_start_s = -kHeatedThrough * model[Parameter::heating_time_constant];
   Plant plant(model, options);
   plant.reset(test.start_m);

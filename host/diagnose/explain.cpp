@@ -5,7 +5,7 @@
 #include <map>
 
 #include "host/diagnose/basis.hpp"
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {

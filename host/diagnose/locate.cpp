@@ -7,7 +7,7 @@
 #include "host/diagnose/axes.hpp"
 #include "host/diagnose/basis.hpp"
 #include "host/diagnose/influence.hpp"
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "host/diagnose/basis.hpp"
 #include "host/diagnose/influence.hpp"
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 #include "host/diagnose/scan.hpp"
 
 namespace cartwright {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/diagnose/basis.hpp"
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {

@@ -1,6 +1,6 @@
 #include "host/diagnose/window_errors.hpp"
 
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 #include "host/evaluate/replay.hpp"
 
 namespace cartwright {
