@@ -60,6 +60,33 @@ void print_list() {
   }
 }
 
+/// Characters of a UTF-8 text: its bytes less the continuation bytes.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+/// Columns as wide as their widest cell; units beside the headings.
+void print_table(const report::Table& table) {
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& column : table.columns)
+    lines[0].push_back(column.unit.empty() ? column.heading
+                                           : fmt::format("{} [{}]", column.heading, column.unit));
+  for (const auto& row : table.rows) {
+    auto& line = lines.emplace_back();
+    for (const auto& cell : row) line.push_back(cell.text);
+  }
+  fmt::print("\n  {}\n", table.caption);
+  for (const auto& line : lines) {
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      std::size_t width = 0;
+      for (const auto& other : lines) width = std::max(width, characters(other[c]));
+      fmt::print("{}{:>{}}", c > 0 ? "  " : "    ", line[c], width);
+    }
+    fmt::print("\n");
+  }
+}
+
 void print_text(const PaperTable& table) {
   fmt::print("{}\n", table.title);
   for (const auto& section : table.sections) {
@@ -70,12 +97,29 @@ void print_text(const PaperTable& table) {
       fmt::print("    obtained   {}\n", item.obtained);
       if (!item.why.empty()) fmt::print("    why        {}\n", item.why);
     }
+    for (const auto& shown : section.tables) print_table(shown);
   }
 }
 
+nlohmann::ordered_json to_json(const Section& section, const report::Table& table) {
+  nlohmann::ordered_json out = {{"section", section.heading}, {"caption", table.caption}};
+  for (const auto& column : table.columns) {
+    out["columns"].push_back(column.unit.empty() ? column.heading
+                                                 : fmt::format("{} [{}]", column.heading, column.unit));
+  }
+  for (const auto& row : table.rows) {
+    nlohmann::ordered_json cells = nlohmann::ordered_json::array();
+    for (const auto& cell : row) cells.push_back(cell.text);
+    out["rows"].push_back(std::move(cells));
+  }
+  return out;
+}
+
 nlohmann::ordered_json to_json(const PaperTable& table) {
-  nlohmann::ordered_json out = {
-      {"paper", table.key}, {"title", table.title}, {"items", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json out = {{"paper", table.key},
+                                {"title", table.title},
+                                {"items", nlohmann::ordered_json::array()},
+                                {"tables", nlohmann::ordered_json::array()}};
   for (const auto& section : table.sections) {
     for (const auto& item : section.items) {
       out["items"].push_back({{"section", section.heading},
@@ -84,6 +128,7 @@ nlohmann::ordered_json to_json(const PaperTable& table) {
                               {"obtained", item.obtained},
                               {"why", item.why}});
     }
+    for (const auto& shown : section.tables) out["tables"].push_back(to_json(section, shown));
   }
   return out;
 }
@@ -95,6 +140,7 @@ void add_to(report::Report& page, const PaperTable& table) {
     report::Table shown{.columns = {{"item"}, {"published"}, {"obtained"}, {"why they differ"}}};
     for (const auto& item : section.items) shown.row({item.item, item.published, item.obtained, item.why});
     page.table(shown);
+    for (const auto& further : section.tables) page.table(further);
     if (!section.plots.empty()) page.plots(section.plots, section.plot_columns);
   }
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "host/identify/bounded_quadratic.hpp"
 
 namespace cartwright {
 namespace {
@@ -130,44 +133,78 @@ PiecewiseForm::PiecewiseForm(const IntegralData& data, std::size_t intervals) : 
   }
 }
 
-void PiecewiseForm::constraints_to(const DampingConstraints& constraints, MatrixXd& G, VectorXd& h) const {
-  const auto steps = static_cast<Index>(intervals()) - 1;
-  const Index rise = constraints.least_rise_per_s ? steps : 0;
-  const Index fall = constraints.greatest_rise_per_s ? steps : 0;
-  const Index slope = constraints.greatest_slope_per_s2 ? steps : 0;
-  G = MatrixXd::Zero(rise + fall + 2 * slope, H_.rows());
-  h = VectorXd::Zero(G.rows());
-  const double length_s = (data_.t_s.back() - data_.t_s.front()) / static_cast<double>(intervals());
-  Index at = 0;
-  for (Index i = 0; i < steps; ++i) {
-    if (constraints.least_rise_per_s) {
-      G(at, i + 3) = 1;
-      G(at, i + 2) = -1;
-      h[at++] = *constraints.least_rise_per_s;
-    }
-    if (constraints.greatest_rise_per_s) {
-      G(at, i + 3) = -1;
-      G(at, i + 2) = 1;
-      h[at++] = -*constraints.greatest_rise_per_s;
-    }
+namespace {
+
+/// Bounds on c(i+1) - c(i).
+struct StepBounds {
+  double lower = -std::numeric_limits<double>::infinity(), upper = -lower;
+
+  StepBounds(const DampingConstraints& constraints, double length_s) {
+    if (constraints.least_rise_per_s) lower = *constraints.least_rise_per_s;
+    if (constraints.greatest_rise_per_s) upper = *constraints.greatest_rise_per_s;
     if (constraints.greatest_slope_per_s2) {
-      for (const double sign : {1.0, -1.0}) {
-        G(at, i + 3) = sign;
-        G(at, i + 2) = -sign;
-        h[at++] = -*constraints.greatest_slope_per_s2 * length_s;
-      }
+      lower = std::max(lower, -*constraints.greatest_slope_per_s2 * length_s);
+      upper = std::min(upper, *constraints.greatest_slope_per_s2 * length_s);
     }
+  }
+  bool any() const { return std::isfinite(lower) || std::isfinite(upper); }
+};
+
+/// y0, alpha0, c_1 ... c_n, k from y0, alpha0, c_1, the steps c(i+1) - c(i), k.
+MatrixXd from_steps(Index size) {
+  MatrixXd T = MatrixXd::Identity(size, size);
+  for (Index i = 3; i + 1 < size; ++i) {
+    for (Index j = 2; j < i; ++j) T(i, j) = 1;
+  }
+  return T;
+}
+
+/// The same bounds as G x >= h, lower ones first.
+void as_inequalities(const StepBounds& bounds, Index size, MatrixXd& G, VectorXd& h) {
+  const Index steps = size - 4, low = std::isfinite(bounds.lower) ? steps : 0;
+  const Index high = std::isfinite(bounds.upper) ? steps : 0;
+  G = MatrixXd::Zero(low + high, size);
+  h.resize(low + high);
+  h << VectorXd::Constant(low, bounds.lower), VectorXd::Constant(high, -bounds.upper);
+  for (Index i = 0; i < steps; ++i) {
+    if (low > 0) G(i, i + 3) = 1, G(i, i + 2) = -1;
+    if (high > 0) G(low + i, i + 3) = -1, G(low + i, i + 2) = 1;
   }
 }
 
+}  // namespace
+
 QuadraticSolution PiecewiseForm::solve(const DampingConstraints& constraints, const VectorXd& shift) const {
-  MatrixXd G;
-  VectorXd h;
-  constraints_to(constraints, G, h);
+  const double length_s = (data_.t_s.back() - data_.t_s.front()) / static_cast<double>(intervals());
+  const StepBounds bounds(constraints, length_s);
+  const Index size = g_.size(), steps = size - 4;
   // Scaled unknowns; the residuals of the optimum are reported for the scaled programme.
   const VectorXd scale = H_.diagonal().cwiseSqrt().cwiseInverse();
-  QuadraticSolution out = minimise(scale.asDiagonal() * H_ * scale.asDiagonal(),
-                                   scale.cwiseProduct(g_ + shift), G * scale.asDiagonal(), h);
+  const MatrixXd H = scale.asDiagonal() * H_ * scale.asDiagonal();
+  const VectorXd g = scale.cwiseProduct(g_ + shift);
+  QuadraticSolution out = minimise(H, g, MatrixXd(0, size), VectorXd(0));
+  if (bounds.any() && steps > 0) {
+    const MatrixXd T = from_steps(size);
+    const MatrixXd H_steps = T.transpose() * H_ * T;
+    const VectorXd unit = H_steps.diagonal().cwiseSqrt().cwiseInverse();
+    const double none = std::numeric_limits<double>::infinity();
+    VectorXd lower = VectorXd::Constant(size, -none), upper = VectorXd::Constant(size, none);
+    lower.segment(3, steps).setConstant(bounds.lower);
+    upper.segment(3, steps).setConstant(bounds.upper);
+    const BoundedSolution found = minimise_within(unit.asDiagonal() * H_steps * unit.asDiagonal(),
+                                                  unit.cwiseProduct(T.transpose() * (g_ + shift)),
+                                                  lower.cwiseQuotient(unit), upper.cwiseQuotient(unit));
+    out.x = (T * unit.cwiseProduct(found.x)).cwiseQuotient(scale);
+    out.converged = found.converged && bounds.lower <= bounds.upper;
+    MatrixXd G;
+    VectorXd h;
+    as_inequalities(bounds, size, G, h);
+    const VectorXd pull = found.multipliers.cwiseQuotient(unit).segment(3, steps);
+    out.multipliers.resize(h.size());
+    if (std::isfinite(bounds.lower)) out.multipliers.head(steps) = pull.cwiseMax(0);
+    if (std::isfinite(bounds.upper)) out.multipliers.tail(steps) = (-pull).cwiseMax(0);
+    out.kkt = kkt_residual(H, g, G * scale.asDiagonal(), h, out.x, out.multipliers);
+  }
   out.x = scale.cwiseProduct(out.x);
   return out;
 }

@@ -76,7 +76,6 @@ class PiecewiseForm {
  private:
   template <typename Visit>
   void each_sample(Visit&& visit) const;
-  void constraints_to(const DampingConstraints& constraints, Eigen::MatrixXd& G, Eigen::VectorXd& h) const;
 
   IntegralData data_;
   std::vector<std::size_t> boundaries_;

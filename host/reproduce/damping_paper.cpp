@@ -3,13 +3,15 @@
 #include "host/reproduce/least_kd.hpp"
 #include "host/reproduce/table_1.hpp"
 #include "host/reproduce/table_2.hpp"
+#include "host/reproduce/theorem_1.hpp"
 
 namespace cartwright::reproduce {
 
 Paper damping_paper() {
   return {"damping",
           "Minimal modelling of non-linear damping (Wongvanich, Hann, Sirisena 2015)",
-          {{"identification", "Eq. 64, 73, 75-78 from simulated carts", identified_carts},
+          {{"theorem1", "Theorem 1, Corollary 2: damping from 5 to 400 intervals", damping_identifiability},
+           {"identification", "Eq. 64, 73, 75-78 from simulated carts", identified_carts},
            {"table1", "voltages of the eight responses", voltage_ranges},
            {"table2", "prediction errors of six models for eight pairs of gains", prediction_errors},
            {"design", "Section 4.4: least Kd, mean squared voltage", least_derivative_gain},

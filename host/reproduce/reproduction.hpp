@@ -6,6 +6,7 @@
 
 #include "common/result.hpp"
 #include "host/report/plot.hpp"
+#include "host/report/table.hpp"
 
 namespace cartwright::reproduce {
 
@@ -20,6 +21,7 @@ struct Item {
 struct Section {
   std::string heading;
   std::vector<Item> items;
+  std::vector<report::Table> tables{};  ///< where an item a line would not do
   std::vector<report::Plot> plots{};
   int plot_columns = 2;
 };
