@@ -3,6 +3,7 @@
 #include "host/reproduce/least_kd.hpp"
 #include "host/reproduce/table_1.hpp"
 #include "host/reproduce/table_2.hpp"
+#include "host/reproduce/table_3.hpp"
 #include "host/reproduce/theorem_1.hpp"
 
 namespace cartwright::reproduce {
@@ -16,7 +17,8 @@ Paper damping_paper() {
            {"table2", "prediction errors of six models for eight pairs of gains", prediction_errors},
            {"design", "Section 4.4: least Kd, mean squared voltage", least_derivative_gain},
            {"fig19", "Fig. 19: predicted responses", predicted_responses},
-           {"fig20", "Fig. 20: a controller designed on the non-linear model", designed_response}}};
+           {"fig20", "Fig. 20: a controller designed on the non-linear model", designed_response},
+           {"table3", "Table 3: the integral method against non-linear regression", against_regression}}};
 }
 
 }  // namespace cartwright::reproduce
