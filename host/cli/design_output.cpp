@@ -39,6 +39,12 @@ std::string gains_text(const DesignTask& task, const Gains& g) {
   return text;
 }
 
+/// With Kp fixed: the stretches of Kd that the model itself meets the specification with.
+std::vector<GainInterval> met_stretches(const DesignTask& task, const Gains& others) {
+  return derivative_gains(task.model, task.trials.loop, task.trials.step, task.trials.specification, others,
+                          task.search.kd.least, task.search.kd.most);
+}
+
 std::size_t tried(const Design& design) {
   std::size_t sum = 0;
   for (const GainMap& map : design.maps) sum += map.tried();
@@ -47,7 +53,7 @@ std::size_t tried(const Design& design) {
 
 }  // namespace
 
-void print_json(const DesignTask& task, const Design& d) {
+void print_json(const DesignTask& task, const Design& d, const RuleComparison& comparison) {
   const auto& spec = task.trials.specification;
   ordered_json out = {{"found", d.found}, {"law", task.integral ? "pid" : "pd"}};
   out["gains"] = d.found ? gains_json(task, d.gains) : ordered_json(nullptr);
@@ -75,10 +81,27 @@ void print_json(const DesignTask& task, const Design& d) {
   out["carts_tried"] = task.trials.scenarios.size();
   out["kp_searched_V_per_m"] = {task.search.kp.least, task.search.kp.most};
   out["kd_searched_V_s_per_m"] = {task.search.kd.least, task.search.kd.most};
+  if (task.search.kp.fixed() && !task.search.kd.fixed()) {
+    out["kd_that_meet_it_V_s_per_m"] = ordered_json::array();
+    for (const GainInterval& one : met_stretches(task, d.gains)) {
+      out["kd_that_meet_it_V_s_per_m"].push_back({one.low, one.high});
+    }
+  }
+  out["tuning_rules"] = ordered_json::array();
+  for (const TuningRule& rule : comparison.rules) {
+    ordered_json entry = {{"rule", rule.name}, {"from", rule.from}, {"gains", gains_json(task, rule.gains)}};
+    for (const QuantityInfo& q : quantities()) {
+      if (q.id != Quantity::bandwidth) entry[std::string(q.name)] = number_json(rule.metrics.*q.of);
+    }
+    entry["met_by_the_model"] = rule.meets;
+    entry["met_by_every_cart"] = rule.holds;
+    out["tuning_rules"].push_back(std::move(entry));
+  }
+  out["remarks"] = comparison.remarks;
   fmt::print("{}\n", out.dump(2));
 }
 
-void print_table(const DesignTask& task, const Design& d) {
+void print_table(const DesignTask& task, const Design& d, const RuleComparison& comparison) {
   const auto& spec = task.trials.specification;
   fmt::print("{} gain sets tried, on {} cart{}\n", tried(d), task.trials.scenarios.size(),
              task.trials.scenarios.size() == 1 ? ": the model gives no intervals"
@@ -119,6 +142,26 @@ void print_table(const DesignTask& task, const Design& d) {
   }
   if (!d.found && !d.model_alone && d.achievable.empty())
     fmt::print("no single limit is to blame: two or more have to give way\n");
+  if (task.search.kp.fixed() && !task.search.kd.fixed()) {
+    for (const GainInterval& one : met_stretches(task, d.gains)) {
+      fmt::print("with Kp = {:.4g} V/m the model meets it for Kd from {:.4g} to {:.4g} V s/m\n",
+                 task.search.kp.least, one.low, one.high);
+    }
+  }
+  if (!comparison.rules.empty()) {
+    fmt::print(
+        "\ntuning rules, tried in the same loop\n{:<20} {:>9} {:>9} {:>9} {:>10} {:>10} {:>9}  {:<18} {}\n",
+        "", "Kp", "Kd", task.integral ? "Ki" : "", "settled", "overshoot", "rms", "specification", "from");
+  }
+  for (const TuningRule& r : comparison.rules) {
+    fmt::print("{:<20} {:>9.4g} {:>9.4g} {:>9} {:>8} s {:>8} % {:>7.3g} V  {:<18} {}\n", r.name,
+               r.gains.kp_V_per_m, r.gains.kd_V_s_per_m,
+               task.integral ? fmt::format("{:.4g}", r.gains.ki_V_per_m_s) : "",
+               shown(r.metrics.settling_time_s, info(Quantity::settling_time)),
+               shown(r.metrics.overshoot, info(Quantity::overshoot)), r.metrics.rms_voltage_V,
+               r.holds ? "met" : (r.meets ? "by the model only" : "not met"), r.from);
+  }
+  for (const std::string& remark : comparison.remarks) fmt::print("{}\n", remark);
 }
 
 }  // namespace cartwright::cli

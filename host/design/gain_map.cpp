@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "host/parallel.hpp"
 
@@ -153,28 +154,45 @@ std::vector<char> GainMap::filled_holds() const {
 }
 
 Outline outline(const GainMap& map, const std::vector<char>& inside) {
-  Outline out;
-  const double dx =
-      (map.kp().most - map.kp().least) / static_cast<double>(std::max<std::size_t>(map.columns() - 1, 1));
-  const double dy =
-      (map.kd().most - map.kd().least) / static_cast<double>(std::max<std::size_t>(map.rows() - 1, 1));
+  // Every side of a cell between inside and outside, from corner to corner, the inside on its left: so each
+  // corner that is reached is left again, and walking on closes a loop.
+  using Corner = std::pair<std::size_t, std::size_t>;
+  std::multimap<Corner, Corner> sides;
   const auto is_in = [&](std::size_t column, std::size_t row) {
-    // One beyond each edge is outside: the outline closes there.
+    // One beyond each edge, below zero too, is outside.
     return column < map.columns() && row < map.rows() && inside[row * map.columns() + column] != 0;
   };
-  const auto line = [&](double x0, double y0, double x1, double y1) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    out.x.insert(out.x.end(), {x0, x1, kNan});
-    out.y.insert(out.y.end(), {y0, y1, kNan});
-  };
-  for (std::size_t row = 0; row <= map.rows(); ++row) {
-    for (std::size_t column = 0; column <= map.columns(); ++column) {
-      const double left = map.kp().least + (static_cast<double>(column) - 0.5) * dx;
-      const double bottom = map.kd().least + (static_cast<double>(row) - 0.5) * dy;
-      const bool here = is_in(column, row);
-      if (here != (column > 0 && is_in(column - 1, row))) line(left, bottom, left, bottom + dy);
-      if (here != (row > 0 && is_in(column, row - 1))) line(left, bottom, left + dx, bottom);
+  for (std::size_t row = 0; row < map.rows(); ++row) {
+    for (std::size_t column = 0; column < map.columns(); ++column) {
+      if (!is_in(column, row)) continue;
+      const Corner a{column, row}, b{column + 1, row}, c{column + 1, row + 1}, d{column, row + 1};
+      if (!is_in(column, row - 1)) sides.emplace(a, b);
+      if (!is_in(column + 1, row)) sides.emplace(b, c);
+      if (!is_in(column, row + 1)) sides.emplace(c, d);
+      if (!is_in(column - 1, row)) sides.emplace(d, a);
     }
+  }
+  const auto place = [](const GainRange& range, std::size_t corner, std::size_t count) {
+    const double step = (range.most - range.least) / static_cast<double>(std::max<std::size_t>(count - 1, 1));
+    return range.least + (static_cast<double>(corner) - 0.5) * step;
+  };
+  Outline out;
+  const auto add = [&](const Corner& corner, bool ends) {
+    out.x.push_back(place(map.kp(), corner.first, map.columns()));
+    out.y.push_back(ends ? std::numeric_limits<double>::quiet_NaN()
+                         : place(map.kd(), corner.second, map.rows()));
+  };
+  while (!sides.empty()) {
+    const Corner start = sides.begin()->first;
+    Corner at = start;
+    add(at, false);
+    do {
+      const auto side = sides.find(at);
+      at = side->second;
+      sides.erase(side);
+      add(at, false);
+    } while (at != start);
+    add(at, true);
   }
   return out;
 }

@@ -67,7 +67,8 @@ class GainMap {
   std::vector<MapPoint> points_;
 };
 
-/// Closed outlines of a region on the lattice, as a line with NaN between pieces: x along Kp, y along Kd.
+/// Closed outlines of a region on the lattice, along the sides of its cells: x along Kp, y along Kd and NaN
+/// after each loop.
 struct Outline {
   std::vector<double> x, y;
 };

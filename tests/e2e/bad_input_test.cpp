@@ -182,8 +182,12 @@ TEST(BadInput, CommandLinesAreRefused) {
   scratch.put("unknown_gains.toml", "[controller]\ntype = \"pd\"\nkp_V_per_m = 2\nki_V_per_m_s = 1\n");
   scratch.put("map.toml",
               "[rig]\nsample_rate_hz = 1000\n[channels]\nt_s = \"t_s\"\ny_m = \"nothing\"\nu_V = \"u_V\"\n");
+  scratch.put("model.toml", kModel);
+  scratch.put("reversed.toml", "[model]\nvoltage_gain_m_per_s2_V = -1.9\n");
+  scratch.put("upside_down.toml",
+              std::string(kModel) + "[intervals]\n\"voltage_gain_m_per_s2_V\" = [2.0, 1.8]\n");
   const std::string out = scratch.text("out"), session = scratch.text("session"),
-                    file = scratch.text("session/step.csv");
+                    file = scratch.text("session/step.csv"), model = scratch.text("model.toml");
   const Words commands[] = {
       {},
       {"fly"},
@@ -198,6 +202,24 @@ TEST(BadInput, CommandLinesAreRefused) {
       {"sinefit", file, "--column", "z_m", "--from", "0", "--to", "1"},
       {"sinefit", scratch.text("none.csv"), "--column", "y_m", "--from", "0", "--to", "1"},
       {"sinefit", file, "--column", "y_m", "--from", "1", "--to", "0"},
+      {"design"},
+      {"design", "--model", scratch.text("none.toml"), "--settling-time", "1", "--out", out},
+      {"design", "--model", model, "--out", out},
+      {"design", "--model", model, "--settling-time", "nan", "--out", out},
+      {"design", "--model", model, "--settling-time", "-1", "--out", out},
+      {"design", "--model", model, "--overshoot", "5", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--step", "0", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--kp", "100:20", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--kp", "soft", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--kd", "0:1e9", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--ki", "5", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--law", "lqr", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--ideal", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--session", scratch.text("none"), "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--session", session, "--step", "3", "--out", out},
+      {"design", "--model", model, "--rise-time", "1", "--relay", scratch.text("none"), "--out", out},
+      {"design", "--model", scratch.text("reversed.toml"), "--rise-time", "1", "--out", out},
+      {"design", "--model", scratch.text("upside_down.toml"), "--rise-time", "1", "--out", out},
       {"device"},
       {"device", "status", "--port", "70000"},
       {"device", "run", "step", "--amplitude-m", "7"},
