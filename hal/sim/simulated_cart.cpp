@@ -108,6 +108,13 @@ Truth SimulatedCart::truth() const noexcept {
   return {plant_.state().position_m, plant_.state().velocity_m_per_s};
 }
 
+void SimulatedCart::set_model(const Model& model) {
+  setup_.model = model;
+  Plant next(model, options_of(setup_, false, 0));
+  next.reset(plant_.state());
+  plant_ = next;
+}
+
 void SimulatedCart::recording_started(std::string_view file) noexcept {
   // The disturbance's start and the motor's warming are counted from the start of a recording.
   PlantState state = plant_.state();

@@ -41,6 +41,8 @@ class SimulatedCart final : public Encoder, public Amplifier, public DigitalInpu
 
   /// Changes what is broken; takes effect at the next call. For tests, between ticks.
   void set_faults(const Faults& faults) noexcept { faults_ = faults; }
+  /// Another cart from now on, where this one is: friction that grows, a payload. For tests, between ticks.
+  void set_model(const Model& model);
   Devices devices() noexcept { return {this, this, this, this}; }
   /// The voltage that drives the plant now.
   double delivered_V() const noexcept { return delivered_V_; }

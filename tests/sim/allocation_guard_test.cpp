@@ -56,11 +56,13 @@ TEST(AllocationGuard, SeesAnAllocation) {
   EXPECT_GE(counted.exchange(0), 1);
 }
 
-TEST(AllocationGuard, NoTickOfABatteryOfAFaultOrOfAGainChangeAllocates) {
+TEST(AllocationGuard, NoTickOfABatteryOfAFaultOrOfAChangeOfGainsOrCompensationAllocates) {
   Model model = TestRig::plain_model();
   model.set(Parameter::transport_delay, 2e-3).set(Parameter::missed_rate, 1).set(Parameter::missed_burst, 2);
   model.set(Parameter::missed_speed, 0.1);
-  const RigFile file;
+  RigFile file;
+  put_model(file.settings, TestRig::plain_model());
+  file.settings.set(wire::Id::compensation_mode, 2);
   TestRig rig(model, file, 200'000);
   const auto standard = std::make_unique<Programme>(battery(rig.rig));
   const auto guarded = [&](int ticks) {
@@ -75,6 +77,7 @@ TEST(AllocationGuard, NoTickOfABatteryOfAFaultOrOfAGainChangeAllocates) {
     request->command = command;
     request->programme = *standard;
     request->gains = {50, 1, 50, false};
+    request->compensation = *compensation_from(rig.rig.settings, rig.rig);
     rig.exchange->requests.post(*request);
     guarded(1);
   };
@@ -83,9 +86,13 @@ TEST(AllocationGuard, NoTickOfABatteryOfAFaultOrOfAGainChangeAllocates) {
   guarded_command(wire::Command::run);
   while (rig.controller.state() == wire::State::running) guarded(100);
   EXPECT_EQ(rig.status().outcome, wire::Outcome::finished);
+  EXPECT_GT(rig.status().identified.windows, 0U) << "the identification was at work";
   guarded_command(wire::Command::run);
   guarded(1000);
   guarded_command(wire::Command::activate_gains);
+  guarded_command(wire::Command::set_compensation);
+  guarded(10);
+  guarded_command(wire::Command::restart_identification);
   hal::sim::Faults faults;
   faults.emergency_stop_ns = 0;
   rig.cart.set_faults(faults);

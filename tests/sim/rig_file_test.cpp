@@ -46,19 +46,24 @@ TEST_P(BadRigFile, IsRefusedWithItsLineAndWhatWouldBeRight) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadRigFile,
-    testing::Values(std::tuple("kind = \"simulated\"", "kind = \"linux\"", "rig.toml:2: kind = \"linux\""),
-                    std::tuple("kind = \"simulated\"\n", "", "kind is missing"),
-                    std::tuple("sample_rate_hz = 1000", "sample_rate_hz = 50", "outside [100, 4000]"),
-                    std::tuple("encoder_resolution_m = 1e-5\n", "",
-                               "encoder_resolution_m must be greater than 0"),
-                    std::tuple("clock = \"virtual\"", "clock = \"slow\"", "\"real\" or \"virtual\""),
-                    std::tuple("port = 0", "port = 99999", "outside [0, 65535]"),
-                    std::tuple("port = 0", "ports = 0", "unknown key ports"),
-                    std::tuple("port = 0", "travel_margin_m = 0.5", "leaves nothing"),
-                    std::tuple("seed = 7", "model = \"cart.toml\"", "not both"),
-                    std::tuple("start_position_m = 0.1", "start_position_m = 0.9", "outside [-0.3, 0.4]"),
-                    std::tuple("[model]", "[rig]", "rig"),
-                    std::tuple("[model]", "[modell]", "unknown key modell")));
+    testing::Values(
+        std::tuple("kind = \"simulated\"", "kind = \"linux\"", "rig.toml:2: kind = \"linux\""),
+        std::tuple("kind = \"simulated\"\n", "", "kind is missing"),
+        std::tuple("sample_rate_hz = 1000", "sample_rate_hz = 50", "outside [100, 4000]"),
+        std::tuple("encoder_resolution_m = 1e-5\n", "", "encoder_resolution_m must be greater than 0"),
+        std::tuple("clock = \"virtual\"", "clock = \"slow\"", "\"real\" or \"virtual\""),
+        std::tuple("port = 0", "port = 99999", "outside [0, 65535]"),
+        std::tuple("port = 0", "ports = 0", "unknown key ports"),
+        std::tuple("port = 0", "travel_margin_m = 0.5", "leaves nothing"),
+        std::tuple("[simulation]", "[compensation]\nmode = \"on\"\n[simulation]",
+                   "\"feedforward\" or \"adaptive\""),
+        std::tuple("[simulation]", "[compensation]\nmode = \"adaptive\"\n[simulation]", "needs model"),
+        std::tuple("[simulation]", "[compensation]\nadaptive_kq = 1\n[simulation]",
+                   "rig.toml:10: unknown key adaptive_kq"),
+        std::tuple("[simulation]", "[compensation]\nadaptive_kf1 = -1\n[simulation]", "adaptive_kf1"),
+        std::tuple("seed = 7", "model = \"cart.toml\"", "not both"),
+        std::tuple("start_position_m = 0.1", "start_position_m = 0.9", "outside [-0.3, 0.4]"),
+        std::tuple("[model]", "[rig]", "rig"), std::tuple("[model]", "[modell]", "unknown key modell")));
 
 class Program : public testing::Test {
  protected:
