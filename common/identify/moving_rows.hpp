@@ -11,6 +11,7 @@ struct OnlineRow {
   double t_s = 0, y_m = 0, u_V = 0;
   bool twin = false;
   double twin_y_m = 0, twin_v_m_per_s = 0, twin_u_V = 0;
+  bool left_out = false;  ///< there is a twin, and it is out of step: one more row like that would be biased
 };
 
 /// A row as it is known a little later.

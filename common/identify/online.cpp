@@ -14,6 +14,7 @@ void OnlineIdentification::restart() noexcept {
   identifier_.restart();
   monitor_.restart();
   own_ = false;
+  twinned_ = given_;
 }
 
 void OnlineIdentification::set_model(const PlantTerms& terms) noexcept {
@@ -22,6 +23,7 @@ void OnlineIdentification::set_model(const PlantTerms& terms) noexcept {
   terms_ = terms;
   windows_.interrupt();  // windows that are open hold what the model before made of them
   monitor_.restart();
+  twinned_ = twinned_ || given_;
   if (given_) twin_.set_model(terms.beta, terms.viscous, terms.coulomb);
 }
 
@@ -54,6 +56,8 @@ void OnlineIdentification::take_new_estimates() noexcept {
   const double gain = now.gain_m_per_s2_V.value, viscous = now.viscous_per_s.value,
                coulomb = now.coulomb_m_per_s2.value;
   twin_.set_model(gain, viscous, coulomb);
+  if (!twinned_) identifier_.forget_blocks();
+  twinned_ = true;
   if (given_ || own_ || identifier_.blocks() < kOwnModelBlocks || !(gain > 0)) return;
   own_ = true;
   terms_.beta = gain;

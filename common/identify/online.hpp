@@ -14,7 +14,9 @@ struct OnlineSetup {
 
 /// Identification while the rig runs: rows in, estimates and the monitor's judgement out. The model that the
 /// monitor holds recordings against is the one it was given; without one, the rig's own, once a dozen blocks
-/// (some twelve seconds of movement) are behind it. No allocation, no exception in what runs inside a tick.
+/// (some twelve seconds of movement) are behind it. The first six blocks, from before there was a model
+/// to run a twin of, only start it: what feedback does to them is not carried along. No allocation, no
+/// exception in what runs inside a tick.
 class OnlineIdentification {
  public:
   explicit OnlineIdentification(const OnlineSetup& setup);
@@ -44,7 +46,7 @@ class OnlineIdentification {
   ModelMonitor monitor_;
   Twin twin_;
   PlantTerms terms_;
-  bool given_ = false, own_ = false;
+  bool given_ = false, own_ = false, twinned_ = false;
 };
 
 }  // namespace cartwright

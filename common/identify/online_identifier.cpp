@@ -35,10 +35,14 @@ double student_t(double degrees) noexcept {
 }  // namespace
 
 void OnlineIdentifier::restart() noexcept {
+  forget_blocks();
+  estimates_ = {};
+}
+
+void OnlineIdentifier::forget_blocks() noexcept {
   open_ = sum_ = {};
   next_ = count_ = cursor_ = 0;
   refining_ = false;
-  estimates_ = {};
 }
 
 void OnlineIdentifier::add(const WeakWindow& window) noexcept {

@@ -37,6 +37,8 @@ class OnlineIdentifier {
   static constexpr std::size_t kBlocks = 128, kFewestBlocks = 6, kWindowsPerBlock = 40;
 
   void restart() noexcept;
+  /// Starts its sums anew; the estimates stay until there are others.
+  void forget_blocks() noexcept;
   void add(const WeakWindow& window) noexcept;
   /// Once per tick: goes on with what a finished block asks for. True when new estimates are there.
   bool refine() noexcept;

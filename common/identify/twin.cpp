@@ -7,6 +7,8 @@ namespace cartwright {
 namespace {
 
 constexpr double kMemory_s = 2;
+/// A twin that stays apart for longer is of no use, and keeps no rows back any more.
+constexpr double kPatience_s = 20;
 constexpr double kGreatestDistance = 0.15;  // as offline: host/identify/problem.cpp
 
 }  // namespace
@@ -36,7 +38,7 @@ void Twin::run(double reference_m, double added_V, OnlineRow& row) noexcept {
   if (first_) {
     plant_.reset(row.y_m);
     middle_m_ = row.y_m;
-    apart_m2_ = moved_m2_ = 0;
+    apart_m2_ = moved_m2_ = apart_s_ = 0;
     first_ = false;
   }
   const PlantState& state = plant_.state();
@@ -47,6 +49,8 @@ void Twin::run(double reference_m, double added_V, OnlineRow& row) noexcept {
   apart_m2_ += share * (apart_m * apart_m - apart_m2_);
   moved_m2_ += share * (moved_m * moved_m - moved_m2_);
   row.twin = modelled_ && apart_m2_ < kGreatestDistance * kGreatestDistance * moved_m2_;
+  apart_s_ = row.twin ? 0 : apart_s_ + period_s_;
+  row.left_out = modelled_ && !row.twin && apart_s_ < kPatience_s;
   row.twin_y_m = state.position_m;
   row.twin_v_m_per_s = state.velocity_m_per_s;
   row.twin_u_V = law_.update(reference_m, state.position_m, added_V);

@@ -9,7 +9,8 @@ namespace cartwright {
 /// The closed loop of a model without noise and without disturbance, run beside the rig from the same
 /// reference and the same added voltage. Its movement is what the regression takes as instrument: what shakes
 /// the rig goes through the controller into the rig's voltage, and not into the twin's. A twin that has
-/// drifted apart from the rig (more than 15 % of the movement, over two seconds) says so and is not used. No
+/// drifted apart from the rig (more than 15 % of the movement, over two seconds) is not used; rows are left
+/// out then, for up to twenty seconds, as equations without an instrument would bring the bias back. No
 /// allocation, no exception in what runs inside a tick.
 class Twin {
  public:
@@ -30,7 +31,7 @@ class Twin {
   bool modelled_ = false, running_ = false, first_ = true;
   Plant plant_;
   PdController law_;
-  double apart_m2_ = 0, moved_m2_ = 0, middle_m_ = 0;
+  double apart_m2_ = 0, moved_m2_ = 0, middle_m_ = 0, apart_s_ = 0;
 };
 
 }  // namespace cartwright
