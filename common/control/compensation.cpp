@@ -68,11 +68,13 @@ double Compensation::wanted_V(Prepared& law, const ReferenceMotion& reference, d
   switch (law.mode) {
     case CompensationMode::feed_forward:
       return law.feed_forward.voltage_V(reference);
-    case CompensationMode::adaptive:
+    case CompensationMode::adaptive: {
+      const double learned_V = law.adaptive.update(reference, reference_m, measured_m, limited);
+      if (!law.feed_forward.has_model()) return learned_V;
       // What the model says beyond the terms that adapt stays as it is.
-      return law.feed_forward.through_amplifier_V(
-          law.feed_forward.drive_V(reference) - law.adaptive.initial_V(reference) +
-          law.adaptive.update(reference, reference_m, measured_m, limited));
+      const double beyond_V = law.feed_forward.drive_V(reference) - law.adaptive.initial_V(reference);
+      return law.feed_forward.through_amplifier_V(beyond_V + learned_V);
+    }
     default:
       return 0;
   }

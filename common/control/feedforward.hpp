@@ -33,6 +33,8 @@ class FeedForward {
     return through_amplifier_V(drive_V(reference));
   }
 
+  bool has_model() const noexcept { return terms_.beta > 0; }
+
   /// The voltage that must act, before M.
   double drive_V(const ReferenceMotion& reference) const noexcept;
   /// The command that makes a voltage act, M.
