@@ -47,7 +47,7 @@ bool MovingRows::push(const OnlineRow& row) noexcept {
   const auto n = static_cast<double>(2 * smooth_ + 1);
   known_.row = middle;
   known_.v_m_per_s = (n * ty - t * y) / (n * tt - t * t);
-  known_.moving = most - least > setup_.stuck_counts * setup_.step_m && !middle.left_out;
+  known_.moving = most - least > setup_.stuck_counts * setup_.step_m;
   known_.gap = first_known_;
   first_known_ = false;
   return true;

@@ -44,7 +44,7 @@ void OnlineIdentification::tick(double t_s, double y_m, double u_V, double refer
   if (rows_.push(row)) {
     const std::size_t count = windows_.push(rows_.known(), terms_);
     for (std::size_t i = 0; i < count; ++i) {
-      identifier_.add(windows_.complete(i));
+      if (!windows_.complete(i).without_instrument) identifier_.add(windows_.complete(i));
       if (given_ || own_) monitor_.add(windows_.complete(i));
     }
   }

@@ -25,7 +25,15 @@ WeakWindows::Interval WeakWindows::interval_to(const MovingRow& row, const Plant
   const OnlineRow &from = before_.row, &to = row.row;
   const double dt = to.t_s - from.t_s, slope = (to.y_m - from.y_m) / dt;
   const double sign = direction(before_.v_m_per_s, row.v_m_per_s);
-  Interval out{from.t_s, to.t_s, slope, 0, 0, {from.u_V, -slope, -sign}, {}, from.twin && to.twin};
+  Interval out{from.t_s,
+               to.t_s,
+               slope,
+               0,
+               0,
+               {from.u_V, -slope, -sign},
+               {},
+               from.twin && to.twin,
+               from.left_out || to.left_out};
   out.z = out.x;
   if (out.twin) {
     out.z = {from.twin_u_V, -(to.twin_y_m - from.twin_y_m) / dt,
@@ -49,6 +57,7 @@ void WeakWindows::add(Sum& sum, const Interval& interval) const noexcept {
   sum.sums.modelled_m_per_s2 += weight * interval.modelled_m_per_s2;
   sum.sums.drive_m_per_s2 += weight * interval.drive_m_per_s2;
   sum.twin = sum.twin && interval.twin;
+  sum.sums.without_instrument = sum.sums.without_instrument || interval.left_out;
 }
 
 void WeakWindows::finish(Sum& sum) noexcept {

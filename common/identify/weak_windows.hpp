@@ -14,11 +14,12 @@ using OnlineVector = std::array<double, kOnlineUnknowns>;
 
 /// One equation of the weak form: means over a window, weighted with the bump.
 struct WeakWindow {
-  double response_m_per_s2 = 0;  ///< of y''
-  OnlineVector x{};              ///< of u, -v, -sgn v
-  OnlineVector z{};              ///< the same of the twin, where every row has one; else x
-  double modelled_m_per_s2 = 0;  ///< of the acceleration that `terms` gives
-  double drive_m_per_s2 = 0;     ///< of the share of the voltage in that
+  double response_m_per_s2 = 0;     ///< of y''
+  OnlineVector x{};                 ///< of u, -v, -sgn v
+  OnlineVector z{};                 ///< the same of the twin, where every row has one; else x
+  double modelled_m_per_s2 = 0;     ///< of the acceleration that `terms` gives
+  double drive_m_per_s2 = 0;        ///< of the share of the voltage in that
+  bool without_instrument = false;  ///< a twin there should be is out of step: no equation for the regression
 };
 
 /// The integral method's windows as a stream. The test function p(t) = (1 - s^2)^3, s = (t - centre)/half,
@@ -52,7 +53,7 @@ class WeakWindows {
   struct Interval {
     double from_s, to_s, slope_m_per_s, modelled_m_per_s2, drive_m_per_s2;
     OnlineVector x, z;
-    bool twin;
+    bool twin, left_out;
   };
 
   Interval interval_to(const MovingRow& row, const PlantTerms& terms) const noexcept;

@@ -166,7 +166,7 @@ Result<Section> linear_motor(const ReproduceOptions& options) {
   Trace off, forward, adaptive;
   const TrackingResult without = run(CompensationMode::off, 1, off);
   const TrackingResult with = run(CompensationMode::feed_forward, 1, forward);
-  const TrackingResult learned = run(CompensationMode::adaptive, 0.9, adaptive);
+  const TrackingResult learned = run(CompensationMode::adaptive, 0, adaptive);
   section.items.push_back({"amplitude of the sine", "not printed",
                            fmt::format("{:.3g} mm", 1e3 * amplitude_m),
                            "the one at which feedback alone leaves the published error"});
@@ -175,14 +175,14 @@ Result<Section> linear_motor(const ReproduceOptions& options) {
                            "Eq. (40) as the PD gains they amount to, 5 kHz"});
   section.items.push_back(
       {"with, the model known", fmt::format("{} um", kPublishedWith_um), microns(with),
-       fmt::format("half of what is seen is the encoder's rounding; {:.0f} times smaller, published {:.1f}",
+       fmt::format("most of what is seen is the encoder's rounding; {:.0f} times smaller, published {:.1f}",
                    without.error_rms_m / with.error_rms_m, kPublishedWithout_um / kPublishedWith_um)});
   section.items.push_back(
-      {"with, adaptive, friction of the start 10 % short", fmt::format("{} um", kPublishedWith_um),
+      {"with, adaptive, from a model without friction", fmt::format("{} um", kPublishedWith_um),
        microns(learned),
-       fmt::format("f1 ends at {:.4g} V (true {} V), started at {:.4g} V; {:.0f} times smaller",
-                   learned.last[E::f1], LinearMotor::kF1_V, 0.9 * LinearMotor::kF1_V,
-                   without.error_rms_m / learned.error_rms_m)});
+       fmt::format("f1 ends at {:.4g} V (true {} V): what is left is inside the dead zone that the encoder "
+                   "asks for; {:.0f} times smaller",
+                   learned.last[E::f1], LinearMotor::kF1_V, without.error_rms_m / learned.error_rms_m)});
   // The friction part by itself: the same feed-forward without it.
   Trace unused;
   const TrackingResult linear = run(CompensationMode::feed_forward, 0, unused);

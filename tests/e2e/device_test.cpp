@@ -174,6 +174,75 @@ TEST_F(EndToEnd, WatchGivesOneJsonObjectPerLine) {
   EXPECT_TRUE(line["position_m"].is_number());
 }
 
+TEST_F(EndToEnd, CompensationIsSwitchedShownAndRecorded) {
+  scratch_.put("model.toml", std::string(kTrueModel) + "[model.transport_delay]\ndelay_s = 0.001\n");
+  const Finished on = daemon_.device({"compensation", "adaptive", "--model", scratch_.text("model.toml"),
+                                      "--set", "adaptive_kf1=3", "--json"});
+  ASSERT_EQ(on.status, 0) << on.err;
+  const json now = json::parse(on.out);
+  EXPECT_EQ(now["mode"], "adaptive");
+  EXPECT_EQ(now["ignored_terms"], json({"transport_delay"}));
+  EXPECT_NEAR(now["estimates"]["f1_V"].get<double>(), 0.5 / 1.9, 1e-5);
+
+  const std::vector<std::string> sine = {
+      "run",          "track", "--shape",      "sine", "--low-hz",       "0.5", "--amplitude-m", "0.1",
+      "--duration-s", "8",     "--kp-V-per-m", "80",   "--kd-V-s-per-m", "3",   "--out"};
+  const auto error_m = [&](const std::string& name) {
+    std::vector<std::string> words = sine;
+    words.push_back(scratch_.text(name));
+    const Finished ran = daemon_.device(words);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    const auto session = read_session(scratch_ / name);
+    if (!session) return std::nan("");
+    const Recording& recording = session->recordings[0];
+    double sum = 0;
+    for (std::size_t row = 0; row < recording.size(); ++row)
+      sum += std::pow(recording.r_m[row] - recording.y_m[row], 2);
+    EXPECT_EQ(recording.other_columns.contains("estimate_f1_V"), name == "with");
+    return std::sqrt(sum / static_cast<double>(recording.size()));
+  };
+  const double with_m = error_m("with");
+  ASSERT_EQ(daemon_.device({"compensation", "off"}).status, 0);
+  EXPECT_GT(error_m("without") / with_m, 11);
+  for (const char* format : {"mat", "ulg"}) {
+    EXPECT_EQ(cartwright({"export", scratch_.text("with"), "--to", format}).status, 0);
+  }
+  EXPECT_EQ(json::parse(daemon_.device({"compensation", "--json"}).out)["mode"], "off");
+}
+
+TEST_F(EndToEnd, WatchShowsWhatIsIdentifiedWhileTheRigRuns) {
+  const json before = json::parse(daemon_.device({"watch", "--once", "--json"}).out);
+  EXPECT_TRUE(before["identified"]["voltage_gain_m_per_s2_V"]["value"].is_null());
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(daemon_.device({"run", "track", "--duration-s", "20"}).status, 0);
+  const json after = json::parse(daemon_.device({"watch", "--once", "--json"}).out);
+  const json& gain = after["identified"]["voltage_gain_m_per_s2_V"];
+  EXPECT_NEAR(gain["value"].get<double>(), 1.9, 0.01 * 1.9);
+  EXPECT_LT(gain["low"].get<double>(), gain["high"].get<double>());
+  EXPECT_EQ(after["notice"], "none");
+  // A model that is far from the rig is noticed, in words.
+  scratch_.put("far.toml", "[model]\nvoltage_gain_m_per_s2_V = 1.5\n");
+  ASSERT_EQ(daemon_.device({"compensation", "--model", scratch_.text("far.toml")}).status, 0);
+  ASSERT_EQ(daemon_.device({"run", "track", "--duration-s", "20"}).status, 0);
+  EXPECT_THAT(daemon_.device({"watch", "--once"}).out, HasSubstr("stopped matching the model"));
+  EXPECT_THAT(daemon_.device({"status"}).out, HasSubstr("notice"));
+  ASSERT_EQ(daemon_.device({"relearn"}).status, 0);
+  EXPECT_EQ(json::parse(daemon_.device({"watch", "--once", "--json"}).out)["notice"], "none");
+}
+
+TEST_F(EndToEnd, CompensationSaysWhatIsWrongWithWhatItIsGiven) {
+  const Finished without_model = daemon_.device({"compensation", "feedforward"});
+  EXPECT_EQ(without_model.status, 1);
+  EXPECT_THAT(without_model.err, HasSubstr("needs a model"));
+  for (const std::string set : {"adaptive_kf1=-1", "adaptive_kf1=x", "adaptive_kf1", "relay_h1_V=1"}) {
+    const Finished refused = daemon_.device({"compensation", "--set", set});
+    EXPECT_EQ(refused.status, 2) << set;
+    EXPECT_THAT(refused.err, HasSubstr("--set " + set));
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  }
+  EXPECT_EQ(daemon_.device({"compensation", "sideways"}).status, 2);
+  EXPECT_EQ(daemon_.device({"compensation", "--model", scratch_.text("none.toml")}).status, 2);
+}
+
 TEST_F(EndToEnd, ARefusedRunSaysWhyAndLeavesTheControllerDisarmed) {
   const Finished ran = daemon_.device({"run", "step", "--amplitude-m", "1.5"});
   EXPECT_EQ(ran.status, 1);
@@ -221,6 +290,8 @@ TEST(Unreachable, EveryDeviceCommandSaysWhereNobodyAnswers) {
       {"gains", "activate", "1"},
       {"pull", "--out", scratch.text("out")},
       {"watch", "--once"},
+      {"compensation", "off"},
+      {"relearn"},
   };
   for (std::vector<std::string> command : commands) {
     SCOPED_TRACE(command[0]);
