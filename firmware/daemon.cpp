@@ -63,8 +63,8 @@ std::int64_t period_ns(const RigFile& rig) {
   return std::llround(1e9 * rig.rig.period_s());
 }
 
-Result<Settings> settings_from(const Options& options) {
-  Settings settings;
+Result<Settings> settings_from(const Options& options, const RigFile& rig) {
+  Settings settings = rig.settings;
   const auto kind = wire::find_experiment(options.once);
   if (!kind) {
     return failure(fmt::format(
@@ -110,17 +110,21 @@ void show_progress(const Status& status) {
 
 Result<int> record_once(const Options& options, const RigFile& rig, Machine& machine) {
   if (options.out.empty()) return failure("--once needs --out DIR to write the recordings to");
-  const auto settings = settings_from(options);
+  const auto settings = settings_from(options, rig);
   if (!settings) return tl::unexpected(settings.error());
   const auto programme = prepare(*settings, rig);
   if (!programme) return tl::unexpected(programme.error());
   Loop loop(machine.controller, *machine.pacer, period_ns(rig), machine.telemetry);
   loop.tick();
-  Request arm, go;
+  Request arm, go, compensate;
+  const auto compensation = compensation_from(*settings, rig);
+  if (!compensation) return tl::unexpected(compensation.error());
+  compensate.command = wire::Command::set_compensation;
+  compensate.compensation = *compensation;
   arm.command = wire::Command::arm;
   go.command = wire::Command::run;
   go.programme = *programme;
-  if (!obey(machine, loop, arm) || !obey(machine, loop, go)) {
+  if (!obey(machine, loop, compensate) || !obey(machine, loop, arm) || !obey(machine, loop, go)) {
     return failure(fmt::format("cannot start: {}", sentence(machine.controller.status().present)));
   }
   const bool watched = ::isatty(STDERR_FILENO) == 1;
@@ -136,6 +140,9 @@ Result<int> record_once(const Options& options, const RigFile& rig, Machine& mac
   if (!written) return tl::unexpected(written.error());
   std::fprintf(stderr, "cartwrightd: %u recordings in %s, %s\n", status.recordings, options.out.c_str(),
                std::string(wire::words(status.outcome)).c_str());
+  if (status.notice != wire::Notice::none) {
+    std::fprintf(stderr, "cartwrightd: notice at %s\n", notice_sentence(status).c_str());
+  }
   if (status.state != wire::State::faulted) return 0;
   std::fprintf(stderr, "cartwrightd: fault at %s\n", sentence(status).c_str());
   return 1;

@@ -7,6 +7,13 @@ namespace cartwright {
 
 using E = AdaptiveEstimates;
 
+namespace {
+
+/// A limit touched in passing, as at a start from a poor model, says little.
+constexpr double kMet_s = 0.5;
+
+}  // namespace
+
 AdaptiveFriction::AdaptiveFriction(const AdaptiveSettings& settings, double period_s)
     : settings_(settings),
       period_s_(period_s),
@@ -65,8 +72,9 @@ void AdaptiveFriction::adapt(double velocity, double direction, double u_c, doub
     const double free = estimates_.value[i] + period_s_ * slope[i];
     const double held = std::clamp(free, settings_.least.value[i], settings_.greatest.value[i]);
     // Where an estimate is not meant to move at all, standing at its limit says nothing.
-    if (held != free && settings_.rate.value[i] > 0) {
-      limits_met_ = static_cast<std::uint16_t>(limits_met_ | (1U << i));
+    if (settings_.rate.value[i] > 0 && outside != 0) {
+      held_s_[i] = held != free ? held_s_[i] + period_s_ : 0;
+      if (held_s_[i] >= kMet_s) limits_met_ = static_cast<std::uint16_t>(limits_met_ | (1U << i));
     }
     estimates_.value[i] = held;
   }

@@ -76,7 +76,7 @@ class AdaptiveFriction {
 
   const AdaptiveEstimates& estimates() const noexcept { return estimates_; }
   double sliding_m_per_s() const noexcept { return sliding_m_per_s_; }
-  /// One bit per estimate that has been at its least or greatest since the start: it stays.
+  /// One bit per estimate that has stood at its least or greatest for half a second on end: it stays.
   std::uint16_t limits_met() const noexcept { return limits_met_; }
 
  private:
@@ -88,6 +88,7 @@ class AdaptiveFriction {
   bool first_ = true;
   double error_m_ = 0, measured_m_ = 0, integral_m_s_ = 0;
   double error_speed_m_per_s_ = 0, speed_m_per_s_ = 0, sliding_m_per_s_ = 0;
+  std::array<double, AdaptiveEstimates::kCount> held_s_{};
   std::uint16_t limits_met_ = 0;
 };
 

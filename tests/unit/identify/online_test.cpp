@@ -11,15 +11,15 @@
 namespace cartwright {
 namespace {
 
-constexpr double kPeriod_s = 1e-3, kStep_m = 2.275e-5, kLimit_V = 12;
+constexpr double kStep_m = 2.275e-5, kLimit_V = 12;
 
 Model cart(double friction = 0.5) {
   return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, friction);
 }
 
-OnlineSetup setup() {
+OnlineSetup setup(double period_s) {
   OnlineSetup out;
-  out.rows = {kPeriod_s, kStep_m};
+  out.rows = {period_s, kStep_m};
   out.voltage_limit_V = kLimit_V;
   return out;
 }
@@ -30,10 +30,11 @@ struct Shaken {
   PdGains gains{80, 2, 50, false};
   Model truth = cart();
   bool with_twin = true;
+  double period_s = 1e-3;
   std::uint64_t seed = 1;
 
   OnlineEstimates run(double duration_s) const {
-    OnlineIdentification online(setup());
+    OnlineIdentification online(setup(period_s));
     if (with_twin) {
       online.begin(gains);
     } else {
@@ -42,19 +43,19 @@ struct Shaken {
     Plant plant(truth);
     plant.reset(0);
     Encoder encoder(truth, kStep_m);
-    PdController law(gains, kPeriod_s, kLimit_V);
+    PdController law(gains, period_s, kLimit_V);
     std::mt19937_64 random(seed);
     std::normal_distribution<double> noise(0, 1);
     double push = 0;
-    const double left = std::exp(-kPeriod_s / 0.03);
-    for (int tick = 0; tick < duration_s / kPeriod_s; ++tick) {
-      const double t = tick * kPeriod_s, w = 2 * std::numbers::pi;
+    const double left = std::exp(-period_s / 0.03);
+    for (int tick = 0; tick < duration_s / period_s; ++tick) {
+      const double t = tick * period_s, w = 2 * std::numbers::pi;
       const double r = amplitude_m * (std::sin(0.3 * w * t) + 0.5 * std::sin(0.83 * w * t));
-      const double y = encoder.read(plant.state().position_m, 0, kPeriod_s);
+      const double y = encoder.read(plant.state().position_m, 0, period_s);
       const double u = law.update(r, y);
       online.tick(t, y, u, r, 0);
       push = left * push + std::sqrt(1 - left * left) * disturbance_m_per_s2 * noise(random);
-      plant.advance(u, kPeriod_s, push);
+      plant.advance(u, period_s, push);
     }
     return online.estimates();
   }
@@ -65,6 +66,18 @@ TEST(OnlineIdentification, FindsAQuietCartToAThousandth) {
   EXPECT_NEAR(found.gain_m_per_s2_V.value, 1.9, 1.9e-3);
   EXPECT_NEAR(found.viscous_per_s.value, 5, 5e-3);
   EXPECT_NEAR(found.coulomb_m_per_s2.value, 0.5, 2e-3);
+}
+
+TEST(OnlineIdentification, DoesSoAtEveryRateOfTheController) {
+  for (const double rate_hz : {100.0, 4000.0}) {
+    Shaken cart;
+    cart.period_s = 1 / rate_hz;
+    cart.gains = {30, 0.5, 20, false};
+    const OnlineEstimates found = cart.run(60);
+    EXPECT_NEAR(found.gain_m_per_s2_V.value, 1.9, 1.9e-3) << rate_hz;
+    EXPECT_NEAR(found.viscous_per_s.value, 5, 5e-3) << rate_hz;
+    EXPECT_NEAR(found.coulomb_m_per_s2.value, 0.5, 2e-3) << rate_hz;
+  }
 }
 
 TEST(OnlineIdentification, FeedbackBiasesTheRegressionAndTheTwinTakesTheBiasAway) {
