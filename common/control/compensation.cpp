@@ -34,7 +34,7 @@ AdaptiveSettings adaptive_about(const Model& model, AdaptiveSettings s, double r
 
 double quiet_dead_zone_m_per_s(const AdaptiveSettings& s, double step_m, double period_s) {
   const double smoothing = 1 - std::exp(-2 * std::numbers::pi * s.speed_filter_hz * period_s);
-  return 2 * step_m * (s.lambda2_per_s + smoothing / period_s);
+  return 0.5 * step_m * (s.lambda2_per_s + smoothing / period_s);
 }
 
 Compensation::Prepared Compensation::prepare(const CompensationSettings& settings, double period_s) {

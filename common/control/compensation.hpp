@@ -21,8 +21,8 @@ struct CompensationSettings {
 AdaptiveSettings adaptive_about(const Model& model, AdaptiveSettings settings, double range,
                                 double voltage_limit_V);
 
-/// A dead zone that an encoder of this step does not leave while nothing else is wrong: twice what one count
-/// makes of the sliding variable.
+/// A dead zone that rounding to this step does not leave by itself: half of what one count makes of the
+/// sliding variable. More would be lost accuracy, as speeds taken from the reference know nothing of noise.
 double quiet_dead_zone_m_per_s(const AdaptiveSettings& settings, double step_m, double period_s);
 
 /// Friction compensation: a voltage to be added after the control law and before the limit, so that the law

@@ -81,7 +81,7 @@ inline constexpr std::array<Register, 63> kOnlineRegisters{{
     {Id::adaptive_kv_per_s, "adaptive_kv_per_s", 4718, Type::f32, 1, "1/s", Access::command, 0, 1000000, 0,
      "Kv of Eq. (25), with adaptive_own_feedback"},
     {Id::adaptive_dead_zone_m_per_s, "adaptive_dead_zone_m_per_s", 4720, Type::f32, 1, "m/s", Access::command,
-     0, 100, 0, "delta of Eq. (22); 0: twice what one count of the encoder makes of the sliding variable"},
+     0, 100, 0, "delta of Eq. (22); 0: half of what one count of the encoder makes of the sliding variable"},
     {Id::adaptive_speed_filter_hz, "adaptive_speed_filter_hz", 4722, Type::f32, 1, "Hz", Access::command, 0.1,
      2000, 10, "filter of the measured speeds"},
     {Id::adaptive_measured_velocity, "adaptive_measured_velocity", 4724, Type::u16, 1, "", Access::command, 0,

@@ -40,7 +40,8 @@ struct Machine {
   std::array<double, 3> noises_m;
 };
 
-/// The dead zone has to hold what readings do by themselves: rounding, and noise at three deviations.
+/// The dead zone has to hold what readings do by themselves: rounding, and noise at three times its deviation
+/// where that is more.
 TrackingSetup measured_by(TrackingSetup setup, double step_m, double noise_m) {
   setup.encoder_step_m = step_m;
   setup.noise_m = noise_m;
