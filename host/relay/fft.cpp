@@ -53,7 +53,49 @@ struct Plan {
   }
 };
 
-/// One radix-4 stage: transforms of length `n`, `stride` of them interleaved.
+using Floats = float __attribute__((vector_size(16)));
+using FloatsAt = float __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// What a butterfly of four makes of its inputs; for numbers and for vectors of them.
+template <typename T>
+struct Butterfly {
+  T r0, i0, r1, i1, r2, i2, r3, i3;
+
+  Butterfly(const T& ar, const T& ai, const T& br, const T& bi, const T& cr, const T& ci, const T& dr,
+            const T& di) {
+    const T sum_r = ar + cr, sum_i = ai + ci, gap_r = ar - cr, gap_i = ai - ci;
+    const T odd_r = br + dr, odd_i = bi + di;
+    const T turn_r = di - bi, turn_i = br - dr;  // i (b - d)
+    r0 = sum_r + odd_r, i0 = sum_i + odd_i;
+    r1 = gap_r - turn_r, i1 = gap_i - turn_i;
+    r2 = sum_r - odd_r, i2 = sum_i - odd_i;
+    r3 = gap_r + turn_r, i3 = gap_i + turn_i;
+  }
+};
+
+/// The first stage: nothing is interleaved yet, so that neighbouring butterflies stand side by side.
+CARTWRIGHT_VECTOR_CLONES void radix4_first(std::size_t n, Roots w, const float* __restrict xr,
+                                           const float* __restrict xi, float* __restrict yr,
+                                           float* __restrict yi) {
+  const std::size_t quarter = n / 4, w_step = w.order / n;
+  for (std::size_t p = 0; p < quarter; ++p) {
+    const Butterfly<float> b(xr[p], xi[p], xr[p + quarter], xi[p + quarter], xr[p + 2 * quarter],
+                             xi[p + 2 * quarter], xr[p + 3 * quarter], xi[p + 3 * quarter]);
+    const float c1 = w.real[p * w_step], s1 = w.imaginary[p * w_step];
+    const float c2 = w.real[2 * p * w_step], s2 = w.imaginary[2 * p * w_step];
+    const float c3 = w.real[3 * p * w_step], s3 = w.imaginary[3 * p * w_step];
+    yr[4 * p] = b.r0;
+    yr[4 * p + 1] = b.r1 * c1 - b.i1 * s1;
+    yr[4 * p + 2] = b.r2 * c2 - b.i2 * s2;
+    yr[4 * p + 3] = b.r3 * c3 - b.i3 * s3;
+    yi[4 * p] = b.i0;
+    yi[4 * p + 1] = b.r1 * s1 + b.i1 * c1;
+    yi[4 * p + 2] = b.r2 * s2 + b.i2 * c2;
+    yi[4 * p + 3] = b.r3 * s3 + b.i3 * c3;
+  }
+}
+
+/// The stages after it: transforms of length `n`, `stride` of them interleaved.
 CARTWRIGHT_VECTOR_CLONES void radix4(std::size_t n, std::size_t stride, Roots w, const float* __restrict xr,
                                      const float* __restrict xi, float* __restrict yr, float* __restrict yi) {
   const std::size_t quarter = n / 4, w_step = w.order / n, hop = stride * quarter;
@@ -65,23 +107,19 @@ CARTWRIGHT_VECTOR_CLONES void radix4(std::size_t n, std::size_t stride, Roots w,
     const float* ai = xi + stride * p;
     float* er = yr + 4 * stride * p;
     float* ei = yi + 4 * stride * p;
-    for (std::size_t q = 0; q < stride; ++q) {
-      const float sum_r = ar[q] + ar[q + 2 * hop], sum_i = ai[q] + ai[q + 2 * hop];
-      const float gap_r = ar[q] - ar[q + 2 * hop], gap_i = ai[q] - ai[q + 2 * hop];
-      const float odd_r = ar[q + hop] + ar[q + 3 * hop], odd_i = ai[q + hop] + ai[q + 3 * hop];
-      const float turn_r = ai[q + 3 * hop] - ai[q + hop],
-                  turn_i = ar[q + hop] - ar[q + 3 * hop];  // i (b - d)
-      er[q] = sum_r + odd_r;
-      ei[q] = sum_i + odd_i;
-      const float r1 = gap_r - turn_r, i1 = gap_i - turn_i;
-      er[q + stride] = r1 * c1 - i1 * s1;
-      ei[q + stride] = r1 * s1 + i1 * c1;
-      const float r2 = sum_r - odd_r, i2 = sum_i - odd_i;
-      er[q + 2 * stride] = r2 * c2 - i2 * s2;
-      ei[q + 2 * stride] = r2 * s2 + i2 * c2;
-      const float r3 = gap_r + turn_r, i3 = gap_i + turn_i;
-      er[q + 3 * stride] = r3 * c3 - i3 * s3;
-      ei[q + 3 * stride] = r3 * s3 + i3 * c3;
+    for (std::size_t q = 0; q < stride; q += 4) {
+      const auto in = [q](const float* at) { return reinterpret_cast<const FloatsAt*>(at + q); };
+      const auto out = [q](float* at) { return reinterpret_cast<FloatsAt*>(at + q); };
+      const Butterfly<Floats> b(*in(ar), *in(ai), *in(ar + hop), *in(ai + hop), *in(ar + 2 * hop),
+                                *in(ai + 2 * hop), *in(ar + 3 * hop), *in(ai + 3 * hop));
+      *out(er) = b.r0;
+      *out(ei) = b.i0;
+      *out(er + stride) = b.r1 * c1 - b.i1 * s1;
+      *out(ei + stride) = b.r1 * s1 + b.i1 * c1;
+      *out(er + 2 * stride) = b.r2 * c2 - b.i2 * s2;
+      *out(ei + 2 * stride) = b.r2 * s2 + b.i2 * c2;
+      *out(er + 3 * stride) = b.r3 * c3 - b.i3 * s3;
+      *out(ei + 3 * stride) = b.r3 * s3 + b.i3 * c3;
     }
   }
 }
@@ -96,30 +134,52 @@ void radix2(std::size_t stride, const float* __restrict xr, const float* __restr
   }
 }
 
+/// Even samples to the real part, odd ones to the imaginary.
+CARTWRIGHT_VECTOR_CLONES void pack(const float* __restrict samples, std::size_t pairs, float* __restrict xr,
+                                   float* __restrict xi) {
+  for (std::size_t j = 0; j < pairs; ++j) {
+    xr[j] = samples[2 * j];
+    xi[j] = samples[2 * j + 1];
+  }
+}
+
+/// The spectrum of the real samples, bins 1 to n - 1, from that of the packed ones: even samples
+/// E = (Z_k + conj Z_(n-k))/2, odd samples O = (Z_k - conj Z_(n-k))/(2i), Y = E + w^k O.
+CARTWRIGHT_VECTOR_CLONES void unpack(std::size_t n, Roots w, const float* __restrict xr,
+                                     const float* __restrict xi, float* __restrict real,
+                                     float* __restrict imaginary) {
+  for (std::size_t k = 1; k < n; ++k) {
+    const std::size_t b = n - k;
+    const float even_r = 0.5F * (xr[k] + xr[b]), even_i = 0.5F * (xi[k] - xi[b]);
+    const float odd_r = 0.5F * (xi[k] + xi[b]), odd_i = -0.5F * (xr[k] - xr[b]);
+    real[k] = even_r + w.real[k] * odd_r - w.imaginary[k] * odd_i;
+    imaginary[k] = even_i + w.real[k] * odd_i + w.imaginary[k] * odd_r;
+  }
+}
+
 }  // namespace
 
 Spectrum real_spectrum(const std::vector<float>& samples, std::size_t size) {
   static thread_local Plan plan;
   plan.prepare(size);
   const std::size_t n = size / 2;
-  const float* wr = plan.wr.data();
-  const float* wi = plan.wi.data();
   float* xr = plan.xr.data();
   float* xi = plan.xi.data();
   float* yr = plan.yr.data();
   float* yi = plan.yi.data();
-  const Roots roots{wr, wi, size};
+  const Roots roots{plan.wr.data(), plan.wi.data(), size};
   const std::size_t given = std::min(samples.size(), size);
-  for (std::size_t j = 0; j + 1 < given; j += 2) {
-    xr[j / 2] = samples[j];
-    xi[j / 2] = samples[j + 1];
-  }
+  pack(samples.data(), given / 2, xr, xi);
   std::fill(xr + given / 2, xr + n, 0.0F);
   std::fill(xi + given / 2, xi + n, 0.0F);
   if (given % 2 == 1) xr[given / 2] = samples[given - 1];
   std::size_t stride = 1;
   for (std::size_t length = n; length > 1;) {
-    if (length >= 4) {
+    if (length >= 4 && stride == 1) {
+      radix4_first(length, roots, xr, xi, yr, yi);
+      length /= 4;
+      stride *= 4;
+    } else if (length >= 4) {
       radix4(length, stride, roots, xr, xi, yr, yi);
       length /= 4;
       stride *= 4;
@@ -131,20 +191,12 @@ Spectrum real_spectrum(const std::vector<float>& samples, std::size_t size) {
     std::swap(xr, yr);
     std::swap(xi, yi);
   }
-  // Unpack: even samples E = (Z_k + conj Z_(n-k))/2, odd samples O = (Z_k - conj Z_(n-k))/(2i), Y = E + w^k
-  // O.
   Spectrum out;
   out.real.resize(n + 1);
   out.imaginary.resize(n + 1);
   out.real[0] = xr[0] + xi[0];
   out.real[n] = xr[0] - xi[0];
-  for (std::size_t k = 1; k < n; ++k) {
-    const std::size_t b = n - k;
-    const float even_r = 0.5F * (xr[k] + xr[b]), even_i = 0.5F * (xi[k] - xi[b]);
-    const float odd_r = 0.5F * (xi[k] + xi[b]), odd_i = -0.5F * (xr[k] - xr[b]);
-    out.real[k] = even_r + wr[k] * odd_r - wi[k] * odd_i;
-    out.imaginary[k] = even_i + wr[k] * odd_i + wi[k] * odd_r;
-  }
+  unpack(n, roots, xr, xi, out.real.data(), out.imaginary.data());
   return out;
 }
 

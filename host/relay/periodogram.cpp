@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/relay/fft.hpp"
+#include "host/relay/vector_sums.hpp"
 
 namespace cartwright {
 namespace {
@@ -18,7 +19,6 @@ constexpr double kFewPeriods = 8;
 constexpr double kLeastPeriods = 0.45;
 /// A second peak this close to the highest is tried as well.
 constexpr double kRivalPower = 0.7;
-constexpr std::size_t kGreatestGrid = std::size_t{1} << 22;
 
 /// Sums over the samples at one angular frequency w, about the middle of the record.
 struct Sums {
@@ -76,10 +76,17 @@ double drop(const Sums& k, double n, const Line& line, bool trend, double yc, do
 
 /// Highest peak, refined by a parabola, and any rival to it.
 std::vector<double> peaks(const std::vector<float>& power, double spacing_hz) {
+  const float highest = greatest(power.data(), power.size());
+  const float rival = static_cast<float>(kRivalPower) * highest;
   std::vector<std::size_t> maxima;
-  for (std::size_t k = 1; k < power.size(); ++k) {
-    const float next = k + 1 < power.size() ? power[k + 1] : 0.0F;
-    if (power[k] > 0 && power[k] >= power[k - 1] && !(power[k] <= next)) maxima.push_back(k);
+  constexpr std::size_t kStretch = 32;  // looked into only where it holds something high enough
+  for (std::size_t begin = 0; begin < power.size(); begin += kStretch) {
+    const std::size_t end = std::min(begin + kStretch, power.size());
+    if (!(highest > 0) || greatest(power.data() + begin, end - begin) < rival) continue;
+    for (std::size_t k = std::max<std::size_t>(begin, 1); k < end; ++k) {
+      const float next = k + 1 < power.size() ? power[k + 1] : 0.0F;
+      if (power[k] >= rival && power[k] >= power[k - 1] && !(power[k] <= next)) maxima.push_back(k);
+    }
   }
   constexpr std::size_t kMost = 3;
   const std::size_t most = std::min(kMost, maxima.size());
@@ -88,7 +95,6 @@ std::vector<double> peaks(const std::vector<float>& power, double spacing_hz) {
   std::vector<double> found;
   for (std::size_t i = 0; i < most; ++i) {
     const std::size_t k = maxima[i];
-    if (static_cast<double>(power[k]) < kRivalPower * static_cast<double>(power[maxima[0]])) break;
     double shift = 0;
     if (k + 1 < power.size() && power[k - 1] > 0 && power[k + 1] > 0) {
       const double before = static_cast<double>(power[k - 1]), at = static_cast<double>(power[k]);
@@ -102,46 +108,72 @@ std::vector<double> peaks(const std::vector<float>& power, double spacing_hz) {
 
 }  // namespace
 
+EvenGrid::EvenGrid(const SineProblem& problem) {
+  const std::size_t count = problem.size();
+  const double half_span = problem.half_span_s();
+  spacing_s = 2 * half_span / static_cast<double>(count - 1);
+  int displaced = 0;  // no branch: it vectorises
+  for (std::size_t i = 0; i < count; ++i) {
+    const double here = static_cast<double>(i) * spacing_s;
+    displaced |= !(std::abs(problem.tau_s()[i] + half_span - here) < 0.25 * spacing_s);
+  }
+  even = displaced == 0;
+  size = count;
+  if (even) return;
+  std::vector<double> steps(count - 1);
+  for (std::size_t i = 0; i + 1 < count; ++i) steps[i] = problem.tau_s()[i + 1] - problem.tau_s()[i];
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  spacing_s = *middle;
+  size = static_cast<std::size_t>(2 * half_span / spacing_s + 0.5) + 1;
+}
+
+void EvenGrid::coarsen(const SineProblem& problem) {
+  if (!too_sparse()) return;
+  size = kGreatest;
+  spacing_s = 2 * problem.half_span_s() / static_cast<double>(size - 1);
+}
+
+std::vector<float> EvenGrid::spread(const SineProblem& problem, std::span<const double> values) const {
+  std::vector<float> out(size, 0.0F);
+  if (even) {
+    for (std::size_t i = 0; i < values.size(); ++i) out[i] = static_cast<float>(values[i]);
+    return out;
+  }
+  const double per_spacing = 1 / spacing_s;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto at =
+        static_cast<std::size_t>((problem.tau_s()[i] + problem.half_span_s()) * per_spacing + 0.5);
+    out[std::min(at, size - 1)] += static_cast<float>(values[i]);
+  }
+  return out;
+}
+
 Result<SineSeeds> sine_seeds(const SineProblem& problem) {
   const std::size_t count = problem.size();
   const double n = static_cast<double>(count);
   const double half_span = problem.half_span_s();
-  double spacing = 2 * half_span / (n - 1);
-  bool even = true;
-  for (std::size_t i = 0; i < count && even; ++i) {
-    even = std::abs(problem.tau_s()[i] + half_span - static_cast<double>(i) * spacing) < 0.25 * spacing;
+  const EvenGrid times(problem);
+  if (times.too_sparse()) {
+    return failure(
+        fmt::format("times are too uneven to look for a frequency: {} s of record, {} s between rows; "
+                    "give the frequency, or a part without gaps",
+                    2 * half_span, times.spacing_s));
   }
-  if (!even) {
-    std::vector<double> steps(count - 1);
-    for (std::size_t i = 0; i + 1 < count; ++i) steps[i] = problem.tau_s()[i + 1] - problem.tau_s()[i];
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    spacing = *middle;
-    if (2 * half_span / spacing > static_cast<double>(kGreatestGrid) / 2) {
-      return failure(
-          fmt::format("times are too uneven to look for a frequency: {} s of record, {} s between rows; "
-                      "give the frequency, or a part without gaps",
-                      2 * half_span, spacing));
-    }
-  }
+  const double spacing = times.spacing_s;
+  const bool even = times.even;
   // y less its line, which would leak into every frequency.
-  double sx = 0, sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    sx += problem.x()[i];
-    sxx += problem.x()[i] * problem.x()[i];
-    sxy += problem.x()[i] * problem.y()[i];
-  }
+  const double sx = sum(problem.x().data(), count), sxx = sum_of_squares(problem.x().data(), count);
+  const double sxy = sum_of_products(problem.x().data(), problem.y().data(), count);
   const Line line{sx / n, sxx - sx * sx / n};
   const double slope = sxy / line.xx;
-  const std::size_t grid = even ? count : static_cast<std::size_t>(std::lround(2 * half_span / spacing)) + 1;
   // In units of its size, so that single precision holds it whatever the unit of y.
-  const double unit = std::sqrt(problem.cost_without_sine(true) / n) + 1e-300;
-  std::vector<float> samples(grid, 0.0F);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto at =
-        even ? i : static_cast<std::size_t>(std::lround((problem.tau_s()[i] + half_span) / spacing));
-    samples[at] += static_cast<float>((problem.y()[i] - slope * (problem.x()[i] - line.mean_x)) / unit);
-  }
+  const double inverse_unit = 1 / (std::sqrt(problem.cost_without_sine(true) / n) + 1e-300);
+  std::vector<double> flat(count);
+  for (std::size_t i = 0; i < count; ++i)
+    flat[i] = (problem.y()[i] - slope * (problem.x()[i] - line.mean_x)) * inverse_unit;
+  const std::vector<float> samples = times.spread(problem, flat);
+  const std::size_t grid = times.size;
   std::size_t size = 64;
   while (size < 2 * grid) size *= 2;
   const Spectrum spectrum = real_spectrum(samples, size);
@@ -166,9 +198,9 @@ Result<SineSeeds> sine_seeds(const SineProblem& problem) {
     const double yc = re * c - im * s, ys = -(re * s + im * c);
     const Sums sums = even ? even_sums(n, spacing, half_span, w) : direct_sums(problem, w);
     beside_trend[k] = static_cast<float>(drop(sums, n, line, true, yc, ys));
-    power_of[k] =
-        static_cast<float>(drop(sums, n, line, false, yc + slope / unit * (sums.xc - line.mean_x * sums.c),
-                                ys + slope / unit * (sums.xs - line.mean_x * sums.s)));
+    power_of[k] = static_cast<float>(drop(sums, n, line, false,
+                                          yc + slope * inverse_unit * (sums.xc - line.mean_x * sums.c),
+                                          ys + slope * inverse_unit * (sums.xs - line.mean_x * sums.s)));
   }
   SineSeeds seeds;
   seeds.highest_hz = 0.5 / spacing;

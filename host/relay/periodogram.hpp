@@ -1,11 +1,29 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/result.hpp"
 #include "host/relay/sine_problem.hpp"
 
 namespace cartwright {
+
+/// An even grid of times for a transform: the samples' own where they are even, else one of their median
+/// spacing, on whose nearest points they are put.
+struct EvenGrid {
+  static constexpr std::size_t kGreatest = std::size_t{1} << 21;
+  double spacing_s = 1;
+  std::size_t size = 0;
+  bool even = true;
+
+  explicit EvenGrid(const SineProblem& problem);
+  /// The grid would be mostly empty.
+  bool too_sparse() const { return size > kGreatest; }
+  /// Then a wider spacing, for what needs only low frequencies.
+  void coarsen(const SineProblem& problem);
+
+  std::vector<float> spread(const SineProblem& problem, std::span<const double> values) const;
+};
 
 /// Frequencies from which a least-squares sine fit may start.
 struct SineSeeds {

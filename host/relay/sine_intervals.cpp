@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "host/relay/fft.hpp"
+#include "host/relay/periodogram.hpp"
+#include "host/relay/vector_sums.hpp"
 #include "host/statistics/distributions.hpp"
 
 namespace cartwright {
@@ -14,48 +17,53 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kConfidence = 0.95;
 
-/// Mean of |sum e exp(-i w t)|^2/(sum e^2) over frequencies around `centre_hz`: 1 for white noise.
-double relative_density(const SineProblem& problem, const std::vector<double>& e, double centre_hz,
-                        double sine_hz, double& bins) {
-  const double record_s = 2 * problem.half_span_s();
-  const double highest_hz = 0.5 * static_cast<double>(problem.size() - 1) / record_s;
-  const std::size_t n = problem.size();
-  double power = 0;
-  for (const double value : e) power += value * value;
-  double sum = 0;
-  bins = 0;
-  std::vector<double> cycles(n), c(n), s(n);
-  for (int j = -8; j <= 8; ++j) {
-    const double f = centre_hz + j / record_s;
-    // The fit has emptied the bins at its own frequency and at zero.
-    if (f * record_s < 0.99 || f > highest_hz || std::abs(f - sine_hz) * record_s < 1.5) continue;
-    for (std::size_t i = 0; i < n; ++i) cycles[i] = f * problem.tau_s()[i];
-    cosine_and_sine_of_cycles(cycles.data(), n, c.data(), s.data());
-    double re = 0, im = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      re += e[i] * c[i];
-      im += e[i] * s[i];
-    }
-    sum += (re * re + im * im) / power;
-    ++bins;
+/// Density of a residual relative to white noise of the same power, over frequency. From a transform of the
+/// residual on an even grid, which is near enough for what is a mean over some dozen bins.
+class RelativeDensity {
+ public:
+  RelativeDensity(const SineProblem& problem, const std::vector<double>& e, double power)
+      : record_s_(2 * problem.half_span_s()), samples_(static_cast<double>(problem.size())) {
+    EvenGrid grid(problem);
+    grid.coarsen(problem);
+    std::vector<double> scaled(e);
+    const double unit = 1 / std::sqrt(power / samples_);
+    for (double& value : scaled) value *= unit;
+    std::size_t size = 64;
+    while (size < grid.size) size *= 2;
+    spectrum_ = real_spectrum(grid.spread(problem, scaled), size);
+    bin_hz_ = 1 / (static_cast<double>(size) * grid.spacing_s);
   }
-  return bins > 0 ? sum / bins : 1.0;
-}
+
+  /// Mean over the bins around `centre_hz`, one record length apart: 1 for white noise.
+  double around(double centre_hz, double sine_hz, double& bins) const {
+    const double highest_hz = 0.5 * (samples_ - 1) / record_s_;
+    double mean = 0;
+    bins = 0;
+    for (int j = -8; j <= 8; ++j) {
+      const double f = centre_hz + j / record_s_;
+      // The fit has emptied the bins at its own frequency and at zero.
+      if (f * record_s_ < 0.99 || f > highest_hz || std::abs(f - sine_hz) * record_s_ < 1.5) continue;
+      const auto k = std::min(static_cast<std::size_t>(f / bin_hz_ + 0.5), spectrum_.real.size() - 1);
+      const double re = static_cast<double>(spectrum_.real[k]),
+                   im = static_cast<double>(spectrum_.imaginary[k]);
+      mean += (re * re + im * im) / samples_;
+      ++bins;
+    }
+    return bins > 0 ? mean / bins : 1.0;
+  }
+
+ private:
+  double record_s_, samples_, bin_hz_ = 1;
+  Spectrum spectrum_;
+};
 
 /// Whether the first lags of the autocorrelation stay within what white noise does (3.3 standard errors).
 bool looks_white(const std::vector<double>& e) {
   constexpr std::size_t kLags = 4;
   if (e.size() < 4 * kLags) return true;
-  double power = 0;
-  for (const double value : e) power += value * value;
-  const double limit = 3.3 * power / std::sqrt(static_cast<double>(e.size()));
+  const double limit = 3.3 * sum_of_squares(e.data(), e.size()) / std::sqrt(static_cast<double>(e.size()));
   for (std::size_t lag = 1; lag <= kLags; ++lag) {
-    double sums[4] = {0, 0, 0, 0};
-    std::size_t i = 0;
-    for (; i + lag + 4 <= e.size(); i += 4) {
-      for (std::size_t l = 0; l < 4; ++l) sums[l] += e[i + l] * e[i + l + lag];
-    }
-    if (std::abs(sums[0] + sums[1] + sums[2] + sums[3]) > limit) return false;
+    if (std::abs(sum_of_products(e.data(), e.data() + lag, e.size() - lag)) > limit) return false;
   }
   return true;
 }
@@ -122,10 +130,13 @@ NoiseColour noise_colour(const SineProblem& problem, const std::vector<double>& 
                          double free_values) {
   NoiseColour colour;
   colour.degrees = std::max(1.0, static_cast<double>(problem.size()) - free_values);
-  if (looks_white(residual)) return colour;
+  const double power = sum_of_squares(residual.data(), residual.size());
+  // What rounding leaves has no colour that matters.
+  if (power <= 1e-24 * problem.cost_without_sine(false) || looks_white(residual)) return colour;
+  const RelativeDensity density(problem, residual, power);
   double bins = 0, bins_at_zero = 0;
-  colour.near_sine = std::max(1.0, relative_density(problem, residual, frequency_hz, frequency_hz, bins));
-  colour.near_zero = std::max(1.0, relative_density(problem, residual, 0, frequency_hz, bins_at_zero));
+  colour.near_sine = std::max(1.0, density.around(frequency_hz, frequency_hz, bins));
+  colour.near_zero = std::max(1.0, density.around(0, frequency_hz, bins_at_zero));
   const double fewest = std::max(1.0, std::min(bins, bins_at_zero));
   colour.degrees = std::min(colour.degrees, 2 * fewest);
   return colour;
@@ -133,11 +144,11 @@ NoiseColour noise_colour(const SineProblem& problem, const std::vector<double>& 
 
 double quantisation_variance(std::span<const double> y, double amplitude, double residual_rms) {
   double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < y.size(); ++i) {
+  for (std::size_t i = 1; i < y.size() && step >= 2 * residual_rms; ++i) {
     const double change = std::abs(y[i] - y[i - 1]);
     if (change > 1e-9 * amplitude) step = std::min(step, change);
   }
-  if (!std::isfinite(step) || residual_rms > 0.5 * step) return 0;
+  if (!std::isfinite(step) || step < 2 * residual_rms) return 0;
   for (std::size_t i = 1; i < y.size(); ++i) {
     const double steps = (y[i] - y[0]) / step;
     if (std::abs(steps - std::round(steps)) > 0.01) return 0;
@@ -151,16 +162,15 @@ void fill_estimates(const SineProblem& problem, const SineProblem::Point& point,
   const Eigen::Index last = point.covariance.rows() - 1;
   const Eigen::MatrixXd covariance =
       fixed_frequency ? with_known_frequency(point.covariance) : point.covariance;
-  double sum = 0;
-  for (const double value : fit.residual) sum += value * value;
+  const double squares = sum_of_squares(fit.residual.data(), fit.residual.size());
   const double n = static_cast<double>(problem.size());
   const double free_values = static_cast<double>(fixed_frequency ? last : last + 1);
-  const double noise = sum / std::max(1.0, n - free_values);
+  const double noise = squares / std::max(1.0, n - free_values);
   const double t = student_t(kConfidence, colour.degrees);
   const auto half_width = [&](double unit_variance, double factor, double extra) {
     return t * std::sqrt(std::max(0.0, unit_variance) * noise * factor + extra);
   };
-  fit.rms = std::sqrt(sum / n);
+  fit.rms = std::sqrt(squares / n);
   fit.middle_s = problem.centre_s();
   fit.periods = point.frequency_hz * 2 * problem.half_span_s() * n / (n - 1);
   fit.offset = Estimate::within(problem.mean() + point.linear(0),

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/relay/vector_clones.hpp"
+#include "host/relay/vector_sums.hpp"
 
 namespace cartwright {
 namespace {
@@ -27,18 +28,6 @@ constexpr std::array<double, kTerms> taylor(bool cosine) {
 }
 constexpr auto kSine = taylor(false);
 constexpr auto kCosine = taylor(true);
-
-/// Sum of a_i b_i in eight lanes, whatever the processor's vectors hold.
-CARTWRIGHT_VECTOR_CLONES double dot(const double* a, const double* b, std::size_t count) {
-  constexpr std::size_t kLanes = 8;
-  double lanes[kLanes] = {};
-  std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
-  }
-  for (; i < count; ++i) lanes[0] += a[i] * b[i];
-  return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
-}
 
 void multiply(const double* a, const double* b, std::size_t count, double* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = a[i] * b[i];
@@ -76,26 +65,115 @@ SineProblem::SineProblem(std::span<const double> t_s, std::span<const double> y,
     : harmonics_(harmonics), tau_s_(t_s.begin(), t_s.end()), x_(t_s.size()), y_(y.begin(), y.end()) {
   centre_s_ = 0.5 * (t_s.front() + t_s.back());
   half_span_s_ = 0.5 * (t_s.back() - t_s.front());
-  for (const double value : y_) mean_ += value;
-  mean_ /= static_cast<double>(y_.size());
-  base_.setZero();
+  mean_ = sum(y_.data(), size()) / static_cast<double>(size());
   const double scale = 1 / half_span_s_;
-  for (std::size_t i = 0; i < y_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     tau_s_[i] -= centre_s_;
     x_[i] = tau_s_[i] * scale;
     y_[i] -= mean_;
-    base_(0, 1) += x_[i];
-    base_(0, 2) += y_[i];
-    base_(1, 1) += x_[i] * x_[i];
-    base_(1, 2) += x_[i] * y_[i];
-    base_(2, 2) += y_[i] * y_[i];
   }
-  base_(0, 0) = static_cast<double>(y_.size());
+  base_(0, 0) = static_cast<double>(size());
+  base_(0, 1) = sum(x_.data(), size());
+  base_(0, 2) = sum(y_.data(), size());
+  base_(1, 1) = sum_of_squares(x_.data(), size());
+  base_(1, 2) = sum_of_products(x_.data(), y_.data(), size());
+  base_(2, 2) = sum_of_squares(y_.data(), size());
   base_ = Eigen::Matrix3d(base_.selfadjointView<Eigen::Upper>());
+}
+
+namespace {
+
+/// Sums over samples of one harmonic's columns.
+struct FundamentalSums {
+  enum Of : std::size_t { c, s, xc, xs, xxc, xxs, yc, ys, yxc, yxs, cc, cs, xcc, xcs, xxcc, xxcs, kCount };
+  Lanes lanes[kCount] = {};
+
+  double operator()(Of of) const { return total(lanes[of]); }
+};
+
+/// Adds a block, in three passes over what is in the cache, so that the partial sums stay in registers. The
+/// block is a multiple of the lanes long; what fills it up counts as cos = sin = 0.
+CARTWRIGHT_VECTOR_CLONES void add_block(const double* x_at, const double* y_at, const double* cosine,
+                                        const double* sine, std::size_t count, FundamentalSums& sums) {
+  using F = FundamentalSums;
+  const auto* x = reinterpret_cast<const LanesAt*>(x_at);
+  const auto* y = reinterpret_cast<const LanesAt*>(y_at);
+  const auto* c = reinterpret_cast<const LanesAt*>(cosine);
+  const auto* s = reinterpret_cast<const LanesAt*>(sine);
+  const std::size_t steps = count / kLanes;
+  Lanes a0{}, a1{}, a2{}, a3{}, a4{}, a5{};
+  for (std::size_t i = 0; i < steps; ++i) {
+    const Lanes xc = x[i] * c[i], xs = x[i] * s[i];
+    a0 += c[i];
+    a1 += s[i];
+    a2 += xc;
+    a3 += xs;
+    a4 += x[i] * xc;
+    a5 += x[i] * xs;
+  }
+  sums.lanes[F::c] += a0, sums.lanes[F::s] += a1, sums.lanes[F::xc] += a2;
+  sums.lanes[F::xs] += a3, sums.lanes[F::xxc] += a4, sums.lanes[F::xxs] += a5;
+  a0 = a1 = a2 = a3 = Lanes{};
+  for (std::size_t i = 0; i < steps; ++i) {
+    const Lanes yc = y[i] * c[i], ys = y[i] * s[i];
+    a0 += yc;
+    a1 += ys;
+    a2 += x[i] * yc;
+    a3 += x[i] * ys;
+  }
+  sums.lanes[F::yc] += a0, sums.lanes[F::ys] += a1, sums.lanes[F::yxc] += a2, sums.lanes[F::yxs] += a3;
+  a0 = a1 = a2 = a3 = a4 = a5 = Lanes{};
+  for (std::size_t i = 0; i < steps; ++i) {
+    const Lanes cc = c[i] * c[i], cs = c[i] * s[i], xcc = x[i] * cc, xcs = x[i] * cs;
+    a0 += cc;
+    a1 += cs;
+    a2 += xcc;
+    a3 += xcs;
+    a4 += x[i] * xcc;
+    a5 += x[i] * xcs;
+  }
+  sums.lanes[F::cc] += a0, sums.lanes[F::cs] += a1, sums.lanes[F::xcc] += a2;
+  sums.lanes[F::xcs] += a3, sums.lanes[F::xxcc] += a4, sums.lanes[F::xxcs] += a5;
+}
+
+}  // namespace
+
+/// One harmonic: the sums that are left once cos^2 + sin^2 = 1 is used.
+Eigen::MatrixXd SineProblem::products_of_fundamental(double frequency_hz) const {
+  using F = FundamentalSums;
+  FundamentalSums sums;
+  std::array<double, kBlock> cycles, cosine, sine;
+  for (std::size_t begin = 0; begin < size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, size() - begin), whole = count - count % kLanes;
+    for (std::size_t i = 0; i < count; ++i) cycles[i] = frequency_hz * tau_s_[begin + i];
+    cosine_and_sine_of_cycles(cycles.data(), count, cosine.data(), sine.data());
+    add_block(x_.data() + begin, y_.data() + begin, cosine.data(), sine.data(), whole, sums);
+    if (whole == count) continue;
+    // The last few, in a block of their own filled up with zeros.
+    std::array<double, kLanes> x{}, y{}, c{}, s{};
+    for (std::size_t i = whole; i < count; ++i) {
+      x[i - whole] = x_[begin + i];
+      y[i - whole] = y_[begin + i];
+      c[i - whole] = cosine[i];
+      s[i - whole] = sine[i];
+    }
+    add_block(x.data(), y.data(), c.data(), s.data(), kLanes, sums);
+  }
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(7, 7);
+  out.topLeftCorner<3, 3>() = base_;
+  out.block<3, 4>(0, 3) << sums(F::c), sums(F::s), sums(F::xc), sums(F::xs),  //
+      sums(F::xc), sums(F::xs), sums(F::xxc), sums(F::xxs),                   //
+      sums(F::yc), sums(F::ys), sums(F::yxc), sums(F::yxs);
+  out.block<4, 4>(3, 3) << sums(F::cc), sums(F::cs), sums(F::xcc), sums(F::xcs),  //
+      0, base_(0, 0) - sums(F::cc), sums(F::xcs), base_(0, 1) - sums(F::xcc),     //
+      0, 0, sums(F::xxcc), sums(F::xxcs),                                         //
+      0, 0, 0, base_(1, 1) - sums(F::xxcc);
+  return out.selfadjointView<Eigen::Upper>();
 }
 
 /// Columns: 1, x, y, then for each harmonic cos, sin, x cos, x sin.
 Eigen::MatrixXd SineProblem::products(double frequency_hz) const {
+  if (harmonics_ == 1) return products_of_fundamental(frequency_hz);
   const auto columns = static_cast<std::size_t>(3 + 4 * harmonics_);
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(3 + 4 * harmonics_, 3 + 4 * harmonics_);
   sums.topLeftCorner<3, 3>() = base_;
@@ -117,7 +195,8 @@ Eigen::MatrixXd SineProblem::products(double frequency_hz) const {
     }
     for (std::size_t j = 3; j < columns; ++j) {
       for (std::size_t i = 0; i <= j; ++i) {
-        sums(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += dot(column(i), column(j), count);
+        sums(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
+            sum_of_products(column(i), column(j), count);
       }
     }
   }
@@ -176,19 +255,25 @@ double SineProblem::cost_without_sine(bool with_trend) const {
 
 std::vector<double> SineProblem::residual(const Point& point, bool with_trend) const {
   const Eigen::Index constants = with_trend ? 2 : 1;
-  std::vector<double> cycles(size()), c(size()), s(size()), out(size());
-  for (std::size_t i = 0; i < size(); ++i) cycles[i] = point.frequency_hz * tau_s_[i];
-  cosine_and_sine_of_cycles(cycles.data(), size(), c.data(), s.data());
-  for (std::size_t i = 0; i < size(); ++i) {
-    double value = point.linear(0) + (with_trend ? point.linear(1) * x_[i] : 0);
-    double ck = 1, sk = 0;
+  std::vector<double> out(size());
+  std::array<double, kBlock> cycles, c1, s1, c, s, next_c, next_s;
+  for (std::size_t begin = 0; begin < size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, size() - begin);
+    double* left = out.data() + begin;
+    for (std::size_t i = 0; i < count; ++i) cycles[i] = point.frequency_hz * tau_s_[begin + i];
+    cosine_and_sine_of_cycles(cycles.data(), count, c1.data(), s1.data());
+    const double slope = with_trend ? point.linear(1) : 0;
+    for (std::size_t i = 0; i < count; ++i) left[i] = y_[begin + i] - point.linear(0) - slope * x_[begin + i];
+    c = c1;
+    s = s1;
     for (int k = 0; k < harmonics_; ++k) {
-      const double next = ck * c[i] - sk * s[i];
-      sk = sk * c[i] + ck * s[i];
-      ck = next;
-      value += point.linear(constants + 2 * k) * ck + point.linear(constants + 2 * k + 1) * sk;
+      const double by_cosine = point.linear(constants + 2 * k), by_sine = point.linear(constants + 2 * k + 1);
+      for (std::size_t i = 0; i < count; ++i) left[i] -= by_cosine * c[i] + by_sine * s[i];
+      if (k + 1 == harmonics_) break;
+      next_harmonic(c1.data(), s1.data(), c.data(), s.data(), count, next_c.data(), next_s.data());
+      std::swap(c, next_c);
+      std::swap(s, next_s);
     }
-    out[i] = y_[i] - value;
   }
   return out;
 }

@@ -48,6 +48,8 @@ class SineProblem {
   const std::vector<double>& y() const { return y_; }  ///< less its mean
 
  private:
+  Eigen::MatrixXd products_of_fundamental(double frequency_hz) const;
+
   int harmonics_;
   double centre_s_ = 0, half_span_s_ = 1, mean_ = 0;
   std::vector<double> tau_s_, x_, y_;

@@ -25,13 +25,15 @@ struct SineSignal {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> late(0, 1);
     Data data;
-    double coloured = normal(random);
+    double coloured = noise_pole > 0 ? normal(random) : 0;
+    const double w = 2 * std::numbers::pi * frequency_hz, fresh = std::sqrt(1 - noise_pole * noise_pole);
     for (int i = 0; i < samples; ++i) {
-      const double t = start_s + period_s * i + jitter_s * late(random);
-      const double w = 2 * std::numbers::pi * frequency_hz;
-      coloured = noise_pole * coloured + std::sqrt(1 - noise_pole * noise_pole) * normal(random);
-      double y = offset + amplitude * std::sin(w * t + phase_rad) + trend_per_s * t +
-                 third_harmonic * std::sin(3 * (w * t + phase_rad)) + noise * coloured;
+      const double t = start_s + period_s * i + (jitter_s > 0 ? jitter_s * late(random) : 0);
+      const double sine = std::sin(w * t + phase_rad);
+      if (noise > 0) coloured = noise_pole * coloured + fresh * normal(random);
+      // sin 3a = 3 sin a - 4 sin^3 a
+      double y = offset + amplitude * sine + trend_per_s * t + third_harmonic * sine * (3 - 4 * sine * sine) +
+                 noise * coloured;
       if (step > 0) y = step * std::round(y / step);
       data.t_s.push_back(t);
       data.y.push_back(y);
