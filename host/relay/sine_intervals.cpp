@@ -16,6 +16,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kConfidence = 0.95;
+/// From here on in periods, a sine is not taken for a part of a slower one on a slope.
+constexpr double kPeriodsWithoutDoubt = 1.5;
 
 /// Density of a residual relative to white noise of the same power, over frequency. From a transform of the
 /// residual on an even grid, which is near enough for what is a mean over some dozen bins.
@@ -202,44 +204,78 @@ void fill_estimates(const SineProblem& problem, const SineProblem::Point& point,
   }
 }
 
+namespace {
+
+/// One model, with or without a trend, over the frequencies tried: what it cannot exclude widens `fit`.
+class Profile {
+ public:
+  Profile(const SineProblem& problem, bool with_trend, const NoiseColour& colour)
+      : problem_(problem), with_trend_(with_trend), colour_(colour) {}
+
+  void add(double frequency_hz, const Eigen::MatrixXd& products) {
+    points_.push_back(problem_.solve(frequency_hz, products, with_trend_));
+    least_cost_ = std::min(least_cost_, points_.back().cost);
+  }
+
+  /// Returns the lowest frequency that is not excluded.
+  double widen(double lowest_hz, SineFit& fit) const {
+    const double free_values = static_cast<double>(points_.front().covariance.rows());
+    const double noise = least_cost_ / std::max(1.0, static_cast<double>(problem_.size()) - free_values);
+    const double t = student_t(kConfidence, colour_.degrees);
+    const double allowance = t * t * noise * colour_.near_sine;
+    for (const SineProblem::Point& point : points_) {
+      const double left = std::min(1.0, 1 - (point.cost - least_cost_) / allowance);
+      if (!(left >= 0)) continue;
+      lowest_hz = std::min(lowest_hz, point.frequency_hz);
+      include(fit.frequency_hz, point.frequency_hz, point.frequency_hz);
+      // What is left of the allowance is there for the linear values at this frequency.
+      const Eigen::MatrixXd covariance = with_known_frequency(point.covariance);
+      const auto reach = [&](const Eigen::VectorXd& by) {
+        return std::sqrt(std::max(0.0, variance(covariance, by)) * allowance * left);
+      };
+      const Polar p = polar(problem_, point, with_trend_ ? 2 : 1, 1);
+      include(fit.amplitude, std::max(0.0, p.amplitude - reach(p.amplitude_by)),
+              p.amplitude + reach(p.amplitude_by));
+      if (fit.phase_rad.has_interval()) {
+        const double phase = fit.phase_rad.value + wrapped(p.phase_rad - fit.phase_rad.value);
+        include(fit.phase_rad, phase - reach(p.phase_by), phase + reach(p.phase_by));
+      }
+      const double offset = problem_.mean() + point.linear(0);
+      const double offset_reach =
+          std::sqrt(std::max(0.0, covariance(0, 0)) * t * t * noise * colour_.near_zero * left);
+      include(fit.offset, offset - offset_reach, offset + offset_reach);
+    }
+    return lowest_hz;
+  }
+
+ private:
+  const SineProblem& problem_;
+  bool with_trend_;
+  NoiseColour colour_;
+  std::vector<SineProblem::Point> points_;
+  double least_cost_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
 double widen_to_profile(const SineProblem& problem, const SineProblem::Point& best, bool with_trend,
                         const NoiseColour& colour, double highest_hz, SineFit& fit) {
-  const Eigen::Index constants = with_trend ? 2 : 1;
-  const double n = static_cast<double>(problem.size());
-  const double free_values = static_cast<double>(best.covariance.rows());
-  const double noise = best.cost / std::max(1.0, n - free_values);
-  const double t = student_t(kConfidence, colour.degrees);
-  const double allowance = t * t * noise * colour.near_sine;
   const double record_s = 2 * problem.half_span_s();
   const double half_width = 0.5 * (fit.frequency_hz.high - fit.frequency_hz.low);
-  std::vector<double> frequencies;
+  std::vector<double> frequencies{best.frequency_hz};
   for (int i = -40; i <= 40; ++i) frequencies.push_back(best.frequency_hz + 0.1 * i * half_width);
   for (int i = 4; i <= 100; ++i) frequencies.push_back(0.05 * i / record_s);
-  double lowest = best.frequency_hz;
+  // So near one period, a part of a period on a slope looks like a whole one.
+  const bool slope_too = !with_trend && fit.periods < kPeriodsWithoutDoubt;
+  Profile chosen(problem, with_trend, colour), on_slope(problem, true, colour);
   for (const double f : frequencies) {
     if (f * record_s < 0.2 || f > highest_hz) continue;
-    const SineProblem::Point point = problem.at(f, with_trend);
-    const double left = 1 - (point.cost - best.cost) / allowance;
-    if (!(left >= 0)) continue;
-    lowest = std::min(lowest, f);
-    include(fit.frequency_hz, f, f);
-    // What is left of the allowance is there for the linear values at this frequency.
-    const Eigen::MatrixXd covariance = with_known_frequency(point.covariance);
-    const auto reach = [&](const Eigen::VectorXd& by) {
-      return std::sqrt(std::max(0.0, variance(covariance, by)) * allowance * std::min(1.0, left));
-    };
-    const Polar p = polar(problem, point, constants, 1);
-    include(fit.amplitude, std::max(0.0, p.amplitude - reach(p.amplitude_by)),
-            p.amplitude + reach(p.amplitude_by));
-    if (fit.phase_rad.has_interval()) {
-      const double phase = fit.phase_rad.value + wrapped(p.phase_rad - fit.phase_rad.value);
-      include(fit.phase_rad, phase - reach(p.phase_by), phase + reach(p.phase_by));
-    }
-    const double offset = problem.mean() + point.linear(0);
-    const double offset_reach =
-        std::sqrt(std::max(0.0, covariance(0, 0)) * t * t * noise * colour.near_zero * std::min(1.0, left));
-    include(fit.offset, offset - offset_reach, offset + offset_reach);
+    const Eigen::MatrixXd products = problem.products(f);
+    chosen.add(f, products);
+    if (slope_too) on_slope.add(f, products);
   }
+  double lowest = chosen.widen(best.frequency_hz, fit);
+  if (slope_too) lowest = on_slope.widen(lowest, fit);
   if (fit.phase_rad.has_interval() && fit.phase_rad.high - fit.phase_rad.low >= kTwoPi) {
     fit.phase_rad = Estimate{fit.phase_rad.value};
   }

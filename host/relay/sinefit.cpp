@@ -20,7 +20,7 @@ constexpr int kMostHarmonics = 20;
 /// A trend belongs to the model from this many standard errors on: by chance once in 2000 records.
 constexpr double kTrendErrors = 3.5;
 /// Probability, over all frequencies looked at, that noise alone gives as high a peak.
-constexpr double kFalseAlarm = 1e-4;
+constexpr double kFalseAlarm = 1e-6;
 /// Below this many periods the cost is no parabola in frequency and intervals come from its profile.
 constexpr double kFewPeriods = 3;
 
@@ -212,15 +212,18 @@ Result<SineFit> sinefit(std::span<const double> t_s, std::span<const double> y,
                     "rms {:.3g}; a longer record or a known frequency is needed",
                     point.frequency_hz, amplitude, fit.rms));
   }
+  const auto too_few = [&fit](double lowest_periods) {
+    const std::string less =
+        lowest_periods < fit.periods ? fmt::format(", and it could be {:.2f}", lowest_periods) : "";
+    return failure(
+        fmt::format("about {:.2f} of a period in the record{}; a sine fit needs at least one whole period",
+                    fit.periods, less));
+  };
+  if (fit.periods < 1) return too_few(fit.periods);
   if (fit.periods < kFewPeriods) {
     const double lowest_hz = widen_to_profile(problem, point, found->with_trend, colour, highest_hz, fit);
     const double lowest_periods = fit.periods * lowest_hz / point.frequency_hz;
-    if (fit.periods < 1 || lowest_periods < 0.5) {
-      return failure(
-          fmt::format("about {:.2f} of a period in the record, and it could be {:.2f}; a sine fit needs at "
-                      "least one whole period",
-                      fit.periods, std::min(fit.periods, lowest_periods)));
-    }
+    if (lowest_periods < 0.5) return too_few(lowest_periods);
   }
   return fit;
 }
