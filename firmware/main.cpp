@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
                      "run one experiment and leave: step, relay, track, sweep, dither, hold, battery");
   app.add_option("--out", options.out, "directory to write the recordings of --once to")->needs(once);
   app.add_option("--set", options.settings,
-                 "NAME=VALUE of an experiment register, for --once; see --registers")
+                 "NAME=VALUE of a register that can be written, for --once; see --registers")
       ->needs(once);
   app.add_flag("--registers", registers, "print the register map as Markdown and leave");
   try {
