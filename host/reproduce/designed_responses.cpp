@@ -2,25 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "host/design/step_metrics.hpp"
 #include "host/reproduce/simulated_step.hpp"
-#include "host/reproduce/step_measures.hpp"
 
 namespace cartwright::reproduce {
 namespace {
 
 constexpr double kLength_s = 1;
 
-std::string text(const std::vector<double>& y_m) {
-  const StepMeasures m = measure_step(y_m, 1e-3, kStep_m);
-  return fmt::format("rise {:.3f} s ({:.3f} s to 98 %), overshoot {:.1f} %", m.rise_s,
-                     reaches_s(y_m, 1e-3, 0.98 * kStep_m), 100 * m.overshoot);
+using design::StepMetrics;
+
+StepMetrics measured(const std::vector<double>& y_m) {
+  design::StepMeter meter(0.01);
+  for (std::size_t i = 0; i < y_m.size(); ++i)
+    meter.add(1e-3 * static_cast<double>(i), y_m[i] / kStep_m, 0, 1e-3);
+  return meter.metrics();
+}
+StepMetrics measured(const IdealResponse& r) {
+  return measured(r.y_m);
 }
 
-StepMeasures measured(const IdealResponse& r) {
-  return measure_step(r.y_m, r.period_s, kStep_m);
+std::string text(const std::vector<double>& y_m) {
+  const StepMetrics m = measured(y_m);
+  const auto near = std::find_if(y_m.begin(), y_m.end(), [](double y) { return y >= 0.98 * kStep_m; });
+  const std::string reached =
+      near == y_m.end() ? "98 % not reached"
+                        : fmt::format("{:.3f} s to 98 %", 1e-3 * static_cast<double>(near - y_m.begin()));
+  return fmt::format("rise {:.3f} s ({}), overshoot {:.1f} %", m.rise_time_s, reached, 100 * m.overshoot);
 }
 
 /// With the loop as it is: sampled, limited, the derivative sees the step.
@@ -92,13 +104,13 @@ GainPair gains_of_linear(const PublishedLinear& m, double overshoot, double rise
     return GainPair{w * w / m.beta_m_per_s2_V, (2 * zeta * w - m.c_per_s) / m.beta_m_per_s2_V};
   };
   constexpr double kTrial_rad_per_s = 10;
-  const double rise = measured(ideal_response(m.model(), gains(kTrial_rad_per_s), 2)).rise_s;
+  const double rise = measured(ideal_response(m.model(), gains(kTrial_rad_per_s), 2)).rise_time_s;
   return gains(kTrial_rad_per_s * rise / rise_s);
 }
 
 struct Found {
   GainPair gains{};
-  StepMeasures measures;
+  StepMetrics measures;
 };
 
 constexpr double kOvershoot = 0.001, kRise_s = 0.3;
@@ -136,12 +148,14 @@ Found find_gains(const Model& model, const ReproduceOptions& options) {
   for (double kp = kLeastKp + kStepKp; kp <= kGreatestKp; kp += kStepKp) {
     const Found now = at(kp);
     options.progress((kp - kLeastKp) / (kGreatestKp - kLeastKp));
-    const auto away = [](const Found& f) { return std::abs(f.measures.rise_s - kRise_s); };
-    if ((before.measures.rise_s > kRise_s) != (now.measures.rise_s > kRise_s)) {
+    const auto away = [](const Found& f) { return std::abs(f.measures.rise_time_s - kRise_s); };
+    if ((before.measures.rise_time_s > kRise_s) != (now.measures.rise_time_s > kRise_s)) {
       double low = before.gains.kp_V_per_m, high = kp;
       for (int i = 0; i < 10; ++i) {
         const double middle = 0.5 * (low + high);
-        ((at(middle).measures.rise_s > kRise_s) == (before.measures.rise_s > kRise_s) ? low : high) = middle;
+        ((at(middle).measures.rise_time_s > kRise_s) == (before.measures.rise_time_s > kRise_s) ? low
+                                                                                                : high) =
+            middle;
       }
       const Found crossing = at(0.5 * (low + high));
       if (away(crossing) < away(best)) best = crossing;

@@ -1,7 +1,9 @@
 #include "host/reproduce/published_sinefit.hpp"
 
 #include <cmath>
-#include <numbers>
+#include <vector>
+
+#include "host/relay/sine_problem.hpp"
 
 namespace cartwright::reproduce {
 
@@ -55,10 +57,12 @@ double brent_minimum(const std::function<double(double)>& cost, double low, doub
 
 PublishedSineFit published_sinefit2(std::span<const double> t_s, std::span<const double> y,
                                     double frequency_hz) {
-  const double w = 2 * std::numbers::pi * frequency_hz;
+  std::vector<double> cycles(y.size()), cosine(y.size()), sine(y.size());
+  for (std::size_t i = 0; i < y.size(); ++i) cycles[i] = frequency_hz * t_s[i];
+  cosine_and_sine_of_cycles(cycles.data(), y.size(), cosine.data(), sine.data());
   double ss = 0, sc = 0, cc = 0, ys = 0, yc = 0, yy = 0;
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const double s = std::sin(w * t_s[i]), c = std::cos(w * t_s[i]);
+    const double s = sine[i], c = cosine[i];
     ss += s * s;
     sc += s * c;
     cc += c * c;

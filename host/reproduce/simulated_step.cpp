@@ -7,6 +7,7 @@
 #include "common/control/pd.hpp"
 #include "common/model/encoder.hpp"
 #include "common/model/plant.hpp"
+#include "host/design/step_test.hpp"
 
 namespace cartwright::reproduce {
 
@@ -46,27 +47,18 @@ std::size_t step_row(const Recording& recording) {
   return static_cast<std::size_t>(moved - recording.r_m.begin());
 }
 
-IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_s, double period_s) {
-  const double beta = cart[Parameter::voltage_gain];
-  const double viscous = cart.has(Term::viscous_friction) ? cart[Parameter::viscous_coefficient] : 0;
-  Model loop = cart;
-  loop.set(Parameter::viscous_coefficient, viscous + beta * gains.kd_V_s_per_m)
-      .set(Parameter::spring_stiffness, beta * gains.kp_V_per_m)
-      .set(Parameter::spring_neutral, kStep_m);
-  PlantOptions options;
-  options.step_s = period_s;
-  Plant plant(loop, options);
-  plant.reset(0);
+IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_s) {
+  constexpr std::size_t kPerTick = 2;
   IdealResponse out;
-  out.period_s = period_s;
-  const auto rows = static_cast<std::size_t>(std::lround(duration_s / period_s)) + 1;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const PlantState& now = plant.state();
-    out.y_m.push_back(now.position_m);
-    out.v_m_per_s.push_back(now.velocity_m_per_s);
-    out.u_V.push_back(gains.kp_V_per_m * (kStep_m - now.position_m) -
-                      gains.kd_V_s_per_m * now.velocity_m_per_s);
-    plant.advance(0, period_s);
+  design::StepTest test;
+  test.step_m = kStep_m;
+  test.duration_s = duration_s;
+  const design::StepRun run =
+      design::run_step(cart, {gains.kp_V_per_m, gains.kd_V_s_per_m},
+                       design::Loop::continuous(out.period_s / static_cast<double>(kPerTick)), test);
+  for (std::size_t row = 0; row < run.y_m.size(); row += kPerTick) {
+    out.y_m.push_back(run.y_m[row]);
+    out.u_V.push_back(run.u_V[row]);
   }
   return out;
 }

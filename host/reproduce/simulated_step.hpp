@@ -26,12 +26,11 @@ Session simulated_step(const Model& cart, const StepSetup& setup);
 std::size_t step_row(const Recording& recording);
 
 /// A response as the paper computes it, Eq. (62): y'' + (C + beta Kd) y' + beta Kp y = beta Kp r0, the PD law
-/// taken as continuous and unlimited, and without the derivative's kick (ERRATA: the amplifier clips). To the
-/// cart's model the controller is then a spring and a damper.
+/// taken as continuous and unlimited, and without the derivative's kick (ERRATA: the amplifier clips).
 struct IdealResponse {
   double period_s = 1e-3;
-  std::vector<double> y_m, v_m_per_s, u_V;  ///< at 0, period, 2 period, ...
+  std::vector<double> y_m, u_V;  ///< at 0, period, 2 period, ...
 };
-IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_s, double period_s = 1e-3);
+IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_s);
 
 }  // namespace cartwright::reproduce

@@ -1,11 +1,8 @@
-#include "host/reproduce/step_measures.hpp"
+#include "host/reproduce/simulated_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
-
-#include "host/reproduce/simulated_step.hpp"
 
 namespace cartwright::reproduce {
 namespace {
@@ -19,36 +16,14 @@ std::vector<double> second_order(double zeta, double w, double period_s, double 
   return y;
 }
 
-TEST(StepMeasures, OvershootOfASecondOrderSystemFollowsItsDampingRatio) {
-  for (const double zeta : {0.3, 0.5, 0.8}) {
-    const auto m = measure_step(second_order(zeta, 10, 1e-4, 5), 1e-4, 1);
-    EXPECT_NEAR(m.overshoot, std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta)), 1e-5);
-  }
-}
-
-TEST(StepMeasures, SettlingIsTheLastCrossingOfTheBand) {
-  const auto y = second_order(0.5, 10, 1e-4, 5);
-  const auto m = measure_step(y, 1e-4, 1);
-  const auto at = static_cast<std::size_t>(m.settling_s / 1e-4);
-  EXPECT_NEAR(std::abs(y[at] - 1), 0.01, 1e-4);
-  for (std::size_t i = at + 2; i < y.size(); ++i) ASSERT_LE(std::abs(y[i] - 1), 0.01);
-}
-
-TEST(StepMeasures, WhatNeverArrivesTakesForEver) {
-  const std::vector<double> short_of_it(100, 0.5);
-  const auto m = measure_step(short_of_it, 1e-3, 1);
-  EXPECT_TRUE(std::isinf(m.rise_s));
-  EXPECT_TRUE(std::isinf(m.settling_s));
-  EXPECT_EQ(m.overshoot, 0);
-}
-
 TEST(IdealResponse, OfALinearModelIsTheTextbookSecondOrderSystem) {
   const auto& m = kPublishedLinear[0];
   const IdealResponse r = ideal_response(m.model(), {60, 5}, 1);
   const double w = std::sqrt(m.beta_m_per_s2_V * 60);
   const double zeta = (m.c_per_s + m.beta_m_per_s2_V * 5) / (2 * w);
   const auto exact = second_order(zeta, w, 1e-3, 1);
-  for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_NEAR(r.y_m[i], kStep_m * exact[i], 1e-8);
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    ASSERT_NEAR(r.y_m[i], kStep_m * exact[i], 1e-6);  // a twentieth of a count
   EXPECT_NEAR(r.u_V.front(), 60 * kStep_m, 1e-12);
 }
 
