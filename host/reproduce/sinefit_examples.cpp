@@ -188,10 +188,7 @@ Result<Section> noise_examples(const ReproduceOptions& options) {
   table.columns = {
       {"periods"},         {"sigma"},         {"search"}, {"bias of A"}, {"of f", "Hz"},
       {"of phase", "rad"}, {"variance of A"}, {"of f"},   {"of phase"},  {"side lobe or refused"}};
-  table.note =
-      "Bias ± two standard errors. Bias and variance are of the draws that end on the main lobe. At sigma = "
-      "2 the "
-      "amplitude is pulled up by the noise itself, as in every fit of a sine.";
+  table.note = "Bias ± two standard errors. Bias and variance are of the draws that end on the main lobe.";
   for (const double periods : {2.0, 10.0, 50.0}) {
     for (const double sigma : {1.0, 2.0}) {
       const Comparison c = run(periods / (kStep_s * (kSamples - 1)), sigma, {1.25, 0.75}, options);
