@@ -30,7 +30,7 @@ double settling_s(const Model& model, double kd, const Loop& loop) {
   return design::step_metrics(model, {kKp_V_per_m, kd}, loop, test_of(kSeen_s)).settling_time_s;
 }
 
-double mean_square_V2(const Model& model, double kd, const Loop& loop, double length_s) {
+double mean_square_voltage(const Model& model, double kd, const Loop& loop, double length_s) {
   const double rms_V = design::step_metrics(model, {kKp_V_per_m, kd}, loop, test_of(length_s)).rms_voltage_V;
   return rms_V * rms_V;
 }
@@ -107,8 +107,8 @@ Result<Section> least_derivative_gain(const ReproduceOptions& options) {
          fmt::format("least {:.2f}; set: {}", with_real.least(), with_real.text()),
          "the derivative's kick, the 12 V limit and the filtered derivative of the real loop"});
     const auto pair = [&](double kd, const Loop& loop) {
-      return fmt::format("{:.2f}, {:.2f}", mean_square_V2(one.model, kd, loop, 0.5),
-                         mean_square_V2(one.model, kd, loop, 1));
+      return fmt::format("{:.2f}, {:.2f}", mean_square_voltage(one.model, kd, loop, 0.5),
+                         mean_square_voltage(one.model, kd, loop, 1));
     };
     section.items.push_back(
         {fmt::format("{}: mean squared voltage over 0.5 s, 1 s", one.name), one.published_V2,
@@ -123,7 +123,8 @@ Result<Section> least_derivative_gain(const ReproduceOptions& options) {
   section.items.push_back(
       {"mean squared voltage of both gains on the same cart, NLm3, 1 s", "3.0 and 2.0 V^2",
        fmt::format("{:.2f} V^2 with the linear model's Kd, {:.2f} with the non-linear model's",
-                   mean_square_V2(cart, least[0], ideal, 1), mean_square_V2(cart, least[1], ideal, 1)),
+                   mean_square_voltage(cart, least[0], ideal, 1),
+                   mean_square_voltage(cart, least[1], ideal, 1)),
        "with less Kd the cart swings more and the voltage with it: the published order does not come out"});
   section.items.push_back(
       {"ratio of the two least Kd", "7.35/3.55 = 2.07", fmt::format("{:.2f}", least[0] / least[1]),
