@@ -125,7 +125,7 @@ EvenGrid::EvenGrid(const SineProblem& problem) {
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   spacing_s = *middle;
-  size = static_cast<std::size_t>(2 * half_span / spacing_s + 0.5) + 1;
+  size = static_cast<std::size_t>(std::lround(2 * half_span / spacing_s)) + 1;
 }
 
 void EvenGrid::coarsen(const SineProblem& problem) {
@@ -143,7 +143,7 @@ std::vector<float> EvenGrid::spread(const SineProblem& problem, std::span<const 
   const double per_spacing = 1 / spacing_s;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto at =
-        static_cast<std::size_t>((problem.tau_s()[i] + problem.half_span_s()) * per_spacing + 0.5);
+        static_cast<std::size_t>(std::lround((problem.tau_s()[i] + problem.half_span_s()) * per_spacing));
     out[std::min(at, size - 1)] += static_cast<float>(values[i]);
   }
   return out;

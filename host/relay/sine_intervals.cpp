@@ -45,7 +45,7 @@ class RelativeDensity {
       const double f = centre_hz + j / record_s_;
       // The fit has emptied the bins at its own frequency and at zero.
       if (f * record_s_ < 0.99 || f > highest_hz || std::abs(f - sine_hz) * record_s_ < 1.5) continue;
-      const auto k = std::min(static_cast<std::size_t>(f / bin_hz_ + 0.5), spectrum_.real.size() - 1);
+      const auto k = std::min(static_cast<std::size_t>(std::lround(f / bin_hz_)), spectrum_.real.size() - 1);
       const double re = static_cast<double>(spectrum_.real[k]),
                    im = static_cast<double>(spectrum_.imaginary[k]);
       mean += (re * re + im * im) / samples_;

@@ -85,8 +85,8 @@ namespace {
 
 /// Sums over samples of one harmonic's columns.
 struct FundamentalSums {
-  enum Of : std::size_t { c, s, xc, xs, xxc, xxs, yc, ys, yxc, yxs, cc, cs, xcc, xcs, xxcc, xxcs, kCount };
-  Lanes lanes[kCount] = {};
+  enum Of : std::size_t { c, s, xc, xs, xxc, xxs, yc, ys, yxc, yxs, cc, cs, xcc, xcs, xxcc, xxcs, how_many };
+  Lanes lanes[how_many] = {};
 
   double operator()(Of of) const { return total(lanes[of]); }
 };
