@@ -31,7 +31,7 @@ class RelativeDensity {
     const double unit = 1 / std::sqrt(power / samples_);
     for (double& value : scaled) value *= unit;
     std::size_t size = 64;
-    while (size < grid.size) size *= 2;
+    while (size < 2 * grid.size) size *= 2;  // as the periodogram: the transform keeps what one size needs
     spectrum_ = real_spectrum(grid.spread(problem, scaled), size);
     bin_hz_ = 1 / (static_cast<double>(size) * grid.spacing_s);
   }

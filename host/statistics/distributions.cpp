@@ -6,14 +6,22 @@
 namespace cartwright {
 namespace {
 
-/// The x in [0, 1] with I_x(a, b) = p. Bisection: 80 halvings reach the last bit and cannot fail.
+/// The x in [0, 1] with I_x(a, b) = p. Newton's method inside a bracket that every step tightens; where it
+/// would leave the bracket, the middle instead, so that it cannot fail.
 double inverse_incomplete_beta(double a, double b, double p) {
-  double low = 0, high = 1;
-  for (int i = 0; i < 80; ++i) {
-    const double middle = 0.5 * (low + high);
-    (incomplete_beta(a, b, middle) < p ? low : high) = middle;
+  const double logarithm = std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
+  double low = 0, high = 1, x = a / (a + b);
+  for (int i = 0; i < 200; ++i) {
+    const double away = incomplete_beta(a, b, x) - p;
+    (away < 0 ? low : high) = x;
+    const double density = std::exp(logarithm + (a - 1) * std::log(x) + (b - 1) * std::log1p(-x));
+    const double newton = x - away / density;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const bool settled = std::abs(next - x) <= 1e-15 * x;
+    x = next;
+    if (settled || high - low <= 1e-16 * x) break;
   }
-  return 0.5 * (low + high);
+  return x;
 }
 
 }  // namespace
