@@ -247,8 +247,7 @@ Result<Section> identified_carts(const ReproduceOptions& options) {
          fmt::format("C {} ({}), beta {} ({})", plus_minus(d.c), percent(d.c.mean(), linear.c_per_s),
                      plus_minus(d.beta_constant), percent(d.beta_constant.mean(), linear.beta_m_per_s2_V)),
          continuous_loop(linear.kp_V_per_m) +
-             "; published from the measured cart, here from its non-linear model, "
-             "which lacks stiction"});
+             "; published from the measured cart, here from the non-linear model that stands for it"});
   }
   for (std::size_t i = 0; i < of_cart.size(); ++i) {
     const PublishedNonlinear& published = kPublishedNonlinear[i];

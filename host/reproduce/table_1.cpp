@@ -25,12 +25,12 @@ std::string range(std::span<const double> u_V) {
 }
 
 std::string why(std::size_t row) {
-  if (row == 0)
-    return "the measured cart's stiction holds it short of the reference; the simulated one has none";
+  if (row == 0) return "the simulated cart is the model fitted to this response, not the cart";
   if (row == 1) {
     return "the derivative's kick at the step meets the 12 V limit, which Eq. (62) does not have; the mean "
            "is Kp "
-           "times the mean error and depends on where the measured cart sticks";
+           "times the mean error, and the measured cart sticks short of the reference where this one creeps "
+           "on";
   }
   return kGainPairs[row].kd_V_s_per_m > 0 ? "as for Kp 60, Kd 5" : "as for Kp 60, Kd 0";
 }
