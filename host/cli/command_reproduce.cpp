@@ -216,7 +216,9 @@ void add_reproduce(CLI::App& app, int& exit_status) {
   command->add_option("--item", options->items, "these items alone (see --list); may be repeated");
   command->add_flag("--list", options->list, "name the papers and their items");
   command->add_option("--out", options->out, "write tables and plots to this HTML page as well");
-  command->add_option("--draws", options->reproduce.draws, "noise draws of each example")
+  command
+      ->add_option("--draws", options->reproduce.draws,
+                   "noise draws of each sine-fit example; the cart experiments take a tenth")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object on standard output");
