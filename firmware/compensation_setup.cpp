@@ -29,6 +29,7 @@ AdaptiveSettings adaptive_from(const Settings& settings, const Model& model, con
   out.lambda2_per_s = settings[Id::adaptive_lambda2_per_s];
   out.kv_per_s = settings[Id::adaptive_kv_per_s];
   out.speed_filter_hz = settings[Id::adaptive_speed_filter_hz];
+  out.fastest_per_s = settings[Id::adaptive_fastest_per_s];
   out.leakage_per_s = settings[Id::adaptive_leakage_per_s];
   out.rate.value = {settings[Id::adaptive_ka], settings[Id::adaptive_kb], settings[Id::adaptive_kf1],
                     settings[Id::adaptive_kf2], settings[Id::adaptive_kf]};

@@ -189,7 +189,7 @@ void Controller::change_gains(const PdGains& gains) noexcept {
 /// Inside a recording without a bump, else at once.
 void Controller::change_compensation(const CompensationSetup& setup) noexcept {
   compensation_.set(setup.law);
-  if (!recording()) compensation_.restart();
+  if (!recording()) compensation_.restart(setup_.gains);
   online_.set_model(setup.model);
 }
 
@@ -198,6 +198,7 @@ void Controller::change_compensation(const CompensationSetup& setup) noexcept {
 void Controller::take_new_gains(const Wanted& wanted, double y_m) noexcept {
   gains_pending_ = false;
   gains_changed_ = true;
+  compensation_.set_feedback(status_.gains);
   online_.end();  // the twin goes by the gains of the recording's start
   PdController before = pd_law_;
   pd_law_.set(status_.gains, setup_.period_s);
@@ -258,7 +259,7 @@ void Controller::begin_recording() noexcept {
     entry_.pd = own ? *own : status_.gains;
     entry_.law = wire::Law::pd;
     pd_law_ = PdController(entry_.pd, setup_.period_s, kNoLimit);
-    compensation_.restart();
+    compensation_.restart(entry_.pd);
     online_.begin(entry_.pd);
   }
   exchange_.recordings[status_.recordings].write(entry_);

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "common/control/feedforward.hpp"
+#include "common/control/pd.hpp"
 
 namespace cartwright {
 
@@ -26,13 +27,15 @@ struct AdaptiveEstimates {
 };
 
 struct AdaptiveSettings {
-  double lambda1_per_s2 = 0, lambda2_per_s = 30;  ///< of the sliding surface, Eq. (21)
-  double kv_per_s = 0;                            ///< Kv of Eq. (25); acts with `own_feedback`
-  double dead_zone_m_per_s = 0.005;               ///< delta of Eq. (22)
-  double speed_filter_hz = 10;                    ///< first-order filter of the measured speeds
-  double leakage_per_s = 0.1;                     ///< of f, which Eq. (31) only lets grow
-  AdaptiveEstimates rate;                         ///< ka, kb, kf1, kf2, kf of Eq. (27)-(31)
-  AdaptiveEstimates initial, least, greatest;     ///< start and projection of every estimate
+  double lambda1_per_s2 = 0;                   ///< of the sliding surface, Eq. (21)
+  double lambda2_per_s = 0;                    ///< the same; 0: the model's damping rate c (`adaptive_about`)
+  double kv_per_s = 0;                         ///< Kv of Eq. (25); acts with `own_feedback`
+  double dead_zone_m_per_s = 0.005;            ///< delta of Eq. (22)
+  double speed_filter_hz = 10;                 ///< first-order filter of the measured speeds
+  double fastest_per_s = 1;                    ///< no estimate is to close in faster, whatever the reference
+  double leakage_per_s = 0.1;                  ///< of f, which Eq. (31) only lets grow
+  AdaptiveEstimates rate;                      ///< ka, kb, kf1, kf2, kf of Eq. (27)-(31)
+  AdaptiveEstimates initial, least, greatest;  ///< start and projection of every estimate
   /// x' and sgn x' of Eq. (24)-(30) from the readings, as printed, instead of from the reference.
   bool measured_velocity = false;
   /// f2 sgn(x') x' = f2 |x'| of Eq. (24), (30) as printed. To show what it does.
@@ -58,13 +61,27 @@ struct AdaptiveSettings {
 /// - x' from a reading carries noise that s carries too, with the other sign: E[x' s] < 0 walks a away
 ///   although nothing is wrong. By default x' is the reference's, which no noise touches; the error system is
 ///   then that of Sadegh and Horowitz (1990).
+/// - The rates of (27)-(30) are divided by 1 + sum k_i phi_i^2 / (fastest K), phi_i what stands beside k_i
+/// and K
+///   = Kd + Kp/L2 the feedback's gain on s (normalised gradient): a fast reference would else make the
+///   adaptation faster than the loop it acts through, and unstable. Without a known feedback gain they are as
+///   printed.
+/// - s and, for (27)-(30), what stands beside the rates go through the same filter, so that it does not put
+///   them out of step.
 /// - Nothing adapts while the output is limited: the error then says nothing of friction.
+///
+/// Beside a PD law, s answers to what is wrong with the estimates through (p + L2)/(p^2 + (c + beta Kd) p +
+/// beta Kp). That is positive real, which the proof needs, for L2 <= c + beta Kd: with more, references
+/// faster than sqrt(beta Kp L2/(L2 - c - beta Kd)) drive the estimates to their limits.
 ///
 /// No allocation, no exception.
 class AdaptiveFriction {
  public:
   AdaptiveFriction() = default;
   AdaptiveFriction(const AdaptiveSettings& settings, double period_s);
+
+  /// The feedback that the voltage is added to.
+  void set_feedback(const PdGains& gains) noexcept;
 
   /// A new run: forgets errors and speeds, keeps the estimates.
   void restart() noexcept;
@@ -83,15 +100,16 @@ class AdaptiveFriction {
 
  private:
   struct Regressors {
-    double velocity, direction, f2, u_c;
+    double velocity = 0, direction = 0, f2 = 0, u_c = 0;
   };
-  void adapt(const Regressors& by, double outside) noexcept;
+  void adapt(double outside) noexcept;
 
   AdaptiveSettings settings_;
-  double period_s_ = 1e-3, smoothing_ = 0;
+  double period_s_ = 1e-3, smoothing_ = 0, feedback_V_s_per_m_ = 0;
   AdaptiveEstimates estimates_;
+  Regressors filtered_;
   bool first_ = true;
-  double error_m_ = 0, measured_m_ = 0, integral_m_s_ = 0;
+  double error_m_ = 0, filtered_error_m_ = 0, measured_m_ = 0, integral_m_s_ = 0;
   double error_speed_m_per_s_ = 0, speed_m_per_s_ = 0, sliding_m_per_s_ = 0;
   std::array<double, AdaptiveEstimates::kCount> held_s_{};
   std::uint16_t limits_met_ = 0;

@@ -11,6 +11,10 @@ using E = AdaptiveEstimates;
 
 /// Slow against the loop, fast against an experiment.
 constexpr double kBump_s = 0.2;
+/// Until then what the change left of the error has gone.
+constexpr double kSettle_s = 1;
+/// Of the sliding surface, where the model has next to no damping.
+constexpr double kLeastSlope_per_s = 1;
 /// Friction to reckon with where the model knows of none, as a share of the voltage limit.
 constexpr double kLeastFriction = 0.02;
 
@@ -25,6 +29,7 @@ AdaptiveSettings adaptive_about(const Model& model, AdaptiveSettings s, double r
   };
   const double a = -in_volts(Term::viscous_friction, Parameter::viscous_coefficient);
   const double f1 = in_volts(Term::coulomb_friction, Parameter::coulomb_level);
+  if (s.lambda2_per_s == 0) s.lambda2_per_s = std::max(kLeastSlope_per_s, -a * beta);
   const double scale_V = std::max(f1, kLeastFriction * voltage_limit_V);
   s.initial.value = {a, 1 / beta, f1, 0, 0};
   s.least.value = {(1 + range) * a, 1 / beta / (1 + range), 0, range * a, 0};
@@ -46,14 +51,24 @@ Compensation::Prepared Compensation::prepare(const CompensationSettings& setting
   return out;
 }
 
-Compensation::Compensation(double period_s) : bump_decay_(std::exp(-period_s / kBump_s)) {}
+Compensation::Compensation(double period_s)
+    : settle_ticks_(static_cast<int>(std::lround(kSettle_s / period_s))),
+      bump_decay_(std::exp(-period_s / kBump_s)) {}
 
 void Compensation::set(const Prepared& prepared) noexcept {
   next_ = prepared;
+  next_.adaptive.set_feedback(feedback_);
   pending_ = true;
 }
 
-void Compensation::restart() noexcept {
+void Compensation::set_feedback(const PdGains& feedback) noexcept {
+  feedback_ = feedback;
+  active_.adaptive.set_feedback(feedback);
+  next_.adaptive.set_feedback(feedback);
+}
+
+void Compensation::restart(const PdGains& feedback) noexcept {
+  set_feedback(feedback);
   active_.adaptive.restart();
   next_.adaptive.restart();
   if (pending_) {
@@ -61,6 +76,7 @@ void Compensation::restart() noexcept {
     pending_ = whole_limited_ = false;
   }
   bump_V_ = 0;
+  settling_ = 0;
 }
 
 double Compensation::wanted_V(Prepared& law, const ReferenceMotion& reference, double reference_m,
@@ -88,8 +104,11 @@ double Compensation::update(const ReferenceMotion& reference, double reference_m
     bump_V_ = before_V - wanted_V(trial, reference, reference_m, measured_m, limited);
     active_ = next_;
     pending_ = whole_limited_ = false;
+    settling_ = settle_ticks_;
   }
-  const double free_V = wanted_V(active_, reference, reference_m, measured_m, limited) + bump_V_;
+  const bool learns = !limited && settling_ == 0;
+  if (settling_ > 0) --settling_;
+  const double free_V = wanted_V(active_, reference, reference_m, measured_m, !learns) + bump_V_;
   bump_V_ *= bump_decay_;
   voltage_V_ = std::clamp(free_V, -active_.limit_V, active_.limit_V);
   whole_limited_ = whole_limited_ || voltage_V_ != free_V;

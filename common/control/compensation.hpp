@@ -34,7 +34,8 @@ double quiet_dead_zone_m_per_s(const AdaptiveSettings& settings, double step_m, 
 ///                    (adaptive_friction.hpp), which starts from the model
 ///
 /// Settings change between two ticks without a bump: what the new ones would add to or take away from the
-/// voltage is made up for and let go of with 0.2 s. No allocation, no exception in `set` and `update`.
+/// voltage is made up for and let go of with 0.2 s, and nothing adapts for a second: the error until then is
+/// the old settings'. No allocation, no exception in `set` and `update`.
 class Compensation {
  public:
   /// What is ready to run, made outside the loop.
@@ -49,8 +50,10 @@ class Compensation {
   explicit Compensation(double period_s);
 
   void set(const Prepared& prepared) noexcept;
-  /// A new run: the estimates stay.
-  void restart() noexcept;
+  /// A new run under these gains: the estimates stay.
+  void restart(const PdGains& feedback = {}) noexcept;
+  /// The gains change within a run.
+  void set_feedback(const PdGains& feedback) noexcept;
 
   /// The voltage to add. `limited`: the last output was held back by the voltage or slew limit.
   double update(const ReferenceMotion& reference, double reference_m, double measured_m,
@@ -73,7 +76,9 @@ class Compensation {
                          double measured_m, bool limited) noexcept;
 
   Prepared active_, next_;
+  PdGains feedback_;
   bool pending_ = false, whole_limited_ = false;
+  int settle_ticks_, settling_ = 0;  ///< ticks without adaptation after a change
   double bump_decay_, bump_V_ = 0, voltage_V_ = 0;
 };
 

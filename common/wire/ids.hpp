@@ -177,6 +177,7 @@ enum class Id : std::size_t {
   adaptive_kf1,
   adaptive_kf2,
   adaptive_kf,
+  adaptive_fastest_per_s,
   adaptive_leakage_per_s,
   adaptive_lambda1_per_s2,
   adaptive_lambda2_per_s,
@@ -211,6 +212,6 @@ enum class Id : std::size_t {
   notice_time_s,
   notice_text,
 };
-inline constexpr std::size_t kRegisterCount = 204;
+inline constexpr std::size_t kRegisterCount = 205;
 
 }  // namespace cartwright::wire

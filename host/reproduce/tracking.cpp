@@ -34,7 +34,7 @@ TrackingResult track(const TrackingSetup& setup,
   const Sine sine{setup.amplitude_m, setup.frequency_hz};
   Compensation compensation(setup.period_s);
   compensation.set(Compensation::prepare(setup.compensation, setup.period_s));
-  compensation.restart();
+  compensation.restart(setup.gains);
   PdController law(setup.gains, setup.period_s, setup.voltage_limit_V);
   Plant plant(setup.truth);
   plant.reset(0);

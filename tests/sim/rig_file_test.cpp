@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/files/files.hpp"
+#include "firmware/compensation_setup.hpp"
 #include "firmware/daemon.hpp"
 #include "firmware/rig_file.hpp"
 
@@ -28,6 +29,28 @@ TEST(RigFile, ReadsWhatItSays) {
   EXPECT_EQ(rig->gain_file, std::filesystem::path("dir/g.txt"));
   EXPECT_EQ(rig->seed, 7U);
   EXPECT_EQ(rig->model[Parameter::voltage_gain], 2.5);
+}
+
+TEST(RigFile, TakesTheCompensationAndItsModelWithWhatCannotBeInvertedLeftOut) {
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("cartwright-rig-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(directory);
+  ASSERT_TRUE(write_file(directory / "found.toml",
+                         "[model]\nvoltage_gain_m_per_s2_V = 1.8\n[model.coulomb_friction]\nlevel_m_per_s2 = "
+                         "0.4\n[model.transport_delay]\ndelay_s = 0.002\n"));
+  const auto rig = rig_file_from_toml(
+      kGood + "[compensation]\nmode = \"adaptive\"\nmodel = \"found.toml\"\nadaptive_kf1 = 7\n",
+      directory / "rig.toml");
+  std::filesystem::remove_all(directory);
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->settings[wire::Id::compensation_mode], 2);
+  EXPECT_EQ(rig->settings[wire::Id::model_voltage_gain_m_per_s2_V], 1.8);
+  EXPECT_EQ(rig->settings[wire::Id::adaptive_kf1], 7);
+  const auto setup = compensation_from(rig->settings, *rig);
+  ASSERT_TRUE(setup);
+  EXPECT_EQ(setup->model.coulomb, 0.4);
+  EXPECT_EQ(setup->model.delay, 0);
+  EXPECT_EQ(setup->law.mode, CompensationMode::adaptive);
 }
 
 /// What is replaced, by what, and a part of the message that must come.

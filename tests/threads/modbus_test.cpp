@@ -293,5 +293,33 @@ TEST(RegisterFile, ASilentOwnerLosesCommandAndTheExperiment) {
   EXPECT_EQ(registers.write(other, lines.address, std::span(&value, 1), now), Answer::good);
 }
 
+TEST_F(Served, CompensationIsSetWhileTheLoopRunsAndItsEstimatesCanBeReadAllTheWhile) {
+  Host host(server->port());
+  ASSERT_TRUE(host.connected());
+  ASSERT_EQ(host.set(Id::compensation_mode, 2), 0);
+  EXPECT_EQ(host.command(Command::set_compensation), wire::Ack::refused) << "no model yet";
+  EXPECT_NE(host.text(Id::ack_text).find("needs a model"), std::string::npos);
+  ASSERT_EQ(host.set(Id::model_voltage_gain_m_per_s2_V, 1.9), 0);
+  ASSERT_EQ(host.set(Id::model_viscous_friction_coefficient_per_s, 5), 0);
+  ASSERT_EQ(host.set(Id::model_coulomb_friction_level_m_per_s2, 0.5), 0);
+  ASSERT_EQ(host.set(Id::experiment_kind, 3), 0);
+  ASSERT_EQ(host.set(Id::experiment_duration_s, 15), 0);
+  ASSERT_EQ(host.command(Command::arm), wire::Ack::done);
+  ASSERT_EQ(host.command(Command::run), wire::Ack::done);
+  ASSERT_EQ(host.command(Command::set_compensation), wire::Ack::done);
+  EXPECT_EQ(host.get(Id::live_compensation), 2);
+  double worst_b = 0, worst_gain = 0;
+  while (host.get(Id::state) == static_cast<double>(wire::State::running)) {
+    worst_b = std::max(worst_b, std::abs(host.get(Id::estimate_b_V_s2_per_m) - 1 / 1.9));
+    const double gain = host.get(Id::identified_gain_m_per_s2_V);
+    if (!std::isnan(gain)) worst_gain = std::max(worst_gain, std::abs(gain - 1.9));
+  }
+  EXPECT_LT(worst_b, 0.05 / 1.9) << "the model is right: switching it on teaches nothing";
+  EXPECT_LT(worst_gain, 0.02);
+  EXPECT_EQ(host.get(Id::outcome), static_cast<double>(wire::Outcome::finished));
+  EXPECT_EQ(host.command(Command::restart_identification), wire::Ack::done);
+  EXPECT_TRUE(std::isnan(host.get(Id::identified_gain_m_per_s2_V)));
+}
+
 }  // namespace
 }  // namespace cartwright::firmware

@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <set>
 #include <vector>
 
+#include "common/control/feedforward.hpp"
 #include "common/log/record.hpp"
 #include "common/wire/codec.hpp"
 #include "common/wire/codes.hpp"
+#include "common/wire/model_registers.hpp"
 #include "common/wire/register_map.hpp"
 
 namespace cartwright::wire {
@@ -99,6 +102,22 @@ TEST(RegisterMap, TheMarkdownHasALineForEveryRegisterAndCode) {
   for (const Register& r : registers()) EXPECT_NE(text.find(fmt::format("`{}`", r.name)), std::string::npos);
   for (std::uint16_t i = 0; i < kFaultCount; ++i) {
     EXPECT_NE(text.find(words(static_cast<Fault>(i))), std::string::npos);
+  }
+}
+
+TEST(RegisterMap, HasARegisterForEveryNumberOfAModelThatTheFeedForwardKnows) {
+  std::set<Parameter> held;
+  for (const auto& [parameter, id] : kModelRegisters) {
+    held.insert(parameter);
+    std::string name = "model_" + dotted_name(parameter);
+    std::replace(name.begin(), name.end(), '.', '_');
+    EXPECT_EQ(info(id).name, name);
+    EXPECT_GE(info(id).least, cartwright::info(parameter).lower) << name;
+    EXPECT_LE(info(id).most, cartwright::info(parameter).upper) << name;
+  }
+  for (const ParameterInfo& parameter : parameters()) {
+    EXPECT_EQ(held.contains(parameter.id), !parameter.term || has_inverse(*parameter.term))
+        << dotted_name(parameter.id);
   }
 }
 
