@@ -62,7 +62,7 @@ Controller::Controller(const ControllerSetup& setup, const hal::Devices& devices
       supervisor_(setup.bounds),
       approach_law_({setup.approach_kp_V_per_m, setup.approach_kd_V_s_per_m, 50, false}, setup.period_s,
                     kNoLimit),
-      pd_law_(setup.gains, setup.period_s, kNoLimit),
+      pd_law_(setup.gains, setup.period_s, kNoLimit, setup.voltage_limit_V),
       relay_law_({}, setup.period_s, kNoLimit),
       bump_decay_(std::exp(-setup.period_s / kBump_s)),
       compensation_(setup.period_s),
@@ -181,7 +181,7 @@ void Controller::start(const Programme& programme) noexcept {
   begin_run(readings_.measurement.position_m);
 }
 
-void Controller::change_gains(const PdGains& gains) noexcept {
+void Controller::change_gains(const PidGains& gains) noexcept {
   status_.gains = gains;
   gains_pending_ = status_.state == State::running && phase_ == Phase::record && gains_follow_;
 }
@@ -189,7 +189,7 @@ void Controller::change_gains(const PdGains& gains) noexcept {
 /// Inside a recording without a bump, else at once.
 void Controller::change_compensation(const CompensationSetup& setup) noexcept {
   compensation_.set(setup.law);
-  if (!recording()) compensation_.restart(setup_.gains);
+  if (!recording()) compensation_.restart(setup_.gains.pd);
   online_.set_model(setup.model);
 }
 
@@ -198,11 +198,11 @@ void Controller::change_compensation(const CompensationSetup& setup) noexcept {
 void Controller::take_new_gains(const Wanted& wanted, double y_m) noexcept {
   gains_pending_ = false;
   gains_changed_ = true;
-  compensation_.set_feedback(status_.gains);
+  compensation_.set_feedback(status_.gains.pd);
   online_.end();  // the twin goes by the gains of the recording's start
-  PdController before = pd_law_;
+  PidController before = pd_law_;
   pd_law_.set(status_.gains, setup_.period_s);
-  PdController after = pd_law_;
+  PidController after = pd_law_;
   bump_V_ += before.update(wanted.reference_m, y_m) - after.update(wanted.reference_m, y_m);
 }
 
@@ -256,11 +256,12 @@ void Controller::begin_recording() noexcept {
     entry_.relay = *relay;
     online_.end();
   } else {
-    entry_.pd = own ? *own : status_.gains;
+    entry_.pd = own ? PidGains{*own, 0} : status_.gains;
     entry_.law = wire::Law::pd;
-    pd_law_ = PdController(entry_.pd, setup_.period_s, kNoLimit);
-    compensation_.restart(entry_.pd);
-    online_.begin(entry_.pd);
+    pd_law_ = PidController(entry_.pd, setup_.period_s, kNoLimit, setup_.voltage_limit_V);
+    compensation_.restart(entry_.pd.pd);
+    // The twin of the identification knows the PD law only.
+    entry_.pd.ki_V_per_m_s == 0 ? online_.begin(entry_.pd.pd) : online_.end();
   }
   exchange_.recordings[status_.recordings].write(entry_);
   ++status_.recordings;

@@ -33,8 +33,8 @@ struct ControllerSetup {
   double period_s = 1e-3;
   double voltage_limit_V = 12, slew_limit_V_per_s = 5e4;
   Bounds bounds;
-  PdGains gains{60, 0, 50, false};  ///< active at the start
-  CompensationSetup compensation;   ///< active at the start
+  PidGains gains{{60, 0, 50, false}, 0};  ///< active at the start
+  CompensationSetup compensation;         ///< active at the start
   double approach_kp_V_per_m = 60, approach_kd_V_s_per_m = 2, approach_speed_m_per_s = 0.1;
 };
 
@@ -64,7 +64,7 @@ class Controller {
   wire::Reason carry_out(const Request& request) noexcept;
   wire::Reason arm() noexcept;
   void start(const Programme& programme) noexcept;
-  void change_gains(const PdGains& gains) noexcept;
+  void change_gains(const PidGains& gains) noexcept;
   void change_compensation(const CompensationSetup& setup) noexcept;
   void take_new_gains(const Wanted& wanted, double y_m) noexcept;
   double compensation_V(Run& run, double time_s, const Wanted& wanted, double y_m) noexcept;
@@ -99,7 +99,8 @@ class Controller {
   std::size_t run_ = 0;
   std::uint64_t phase_tick_ = 0;
   double approach_from_m_ = 0, approach_s_ = 0, done_s_ = 0, total_s_ = 0;
-  PdController approach_law_, pd_law_;
+  PdController approach_law_;
+  PidController pd_law_;  ///< PD where Ki is zero
   DualRelayController relay_law_;
   double bump_decay_, bump_V_ = 0;  ///< what bumpless transfer still adds
   bool relay_active_ = false, gains_follow_ = false, gains_pending_ = false, gains_changed_ = false;

@@ -17,9 +17,11 @@ std::uint32_t checksum(std::string_view text) {
 
 std::string line_of(int number, const GainSlot& slot) {
   const std::string body = fmt::format(
-      "slot {} generation {} kp_V_per_m {} kd_V_s_per_m {} derivative_filter_hz {} on_measurement {}", number,
-      slot.generation, slot.gains.kp_V_per_m, slot.gains.kd_V_s_per_m, slot.gains.derivative_filter_hz,
-      slot.gains.derivative_on_measurement ? 1 : 0);
+      "slot {} generation {} kp_V_per_m {} kd_V_s_per_m {} derivative_filter_hz {} on_measurement {} "
+      "ki_V_per_m_s {}",
+      number, slot.generation, slot.gains.pd.kp_V_per_m, slot.gains.pd.kd_V_s_per_m,
+      slot.gains.pd.derivative_filter_hz, slot.gains.pd.derivative_on_measurement ? 1 : 0,
+      slot.gains.ki_V_per_m_s);
   return fmt::format("{} crc {:08x}\n", body, checksum(body));
 }
 
@@ -37,24 +39,28 @@ std::optional<Line> parse(const std::string& text) {
   std::string word;
   Line line;
   int on_measurement = 0;
-  words >> word >> line.number >> word >> line.slot.generation >> word >> line.slot.gains.kp_V_per_m >>
-      word >> line.slot.gains.kd_V_s_per_m >> word >> line.slot.gains.derivative_filter_hz >> word >>
+  words >> word >> line.number >> word >> line.slot.generation >> word >> line.slot.gains.pd.kp_V_per_m >>
+      word >> line.slot.gains.pd.kd_V_s_per_m >> word >> line.slot.gains.pd.derivative_filter_hz >> word >>
       on_measurement;
-  line.slot.gains.derivative_on_measurement = on_measurement != 0;
-  if (!words || line.number < 1 || line.number > 2 || !within_bounds(line.slot.gains)) return std::nullopt;
+  line.slot.gains.pd.derivative_on_measurement = on_measurement != 0;
+  const bool whole = !words.fail();
+  // A file from before there was an integral part ends here.
+  if (whole && words >> word && !(words >> line.slot.gains.ki_V_per_m_s)) return std::nullopt;
+  if (!whole || line.number < 1 || line.number > 2 || !within_bounds(line.slot.gains)) return std::nullopt;
   return line;
 }
 
 }  // namespace
 
-bool within_bounds(const PdGains& gains) {
+bool within_bounds(const PidGains& gains) {
   const auto inside = [](wire::Id id, double value) {
     const wire::Register& r = wire::info(id);
     return value >= r.least && value <= r.most;
   };
-  return inside(wire::Id::staged_kp_V_per_m, gains.kp_V_per_m) &&
-         inside(wire::Id::staged_kd_V_s_per_m, gains.kd_V_s_per_m) &&
-         inside(wire::Id::staged_filter_hz, gains.derivative_filter_hz);
+  return inside(wire::Id::staged_kp_V_per_m, gains.pd.kp_V_per_m) &&
+         inside(wire::Id::staged_kd_V_s_per_m, gains.pd.kd_V_s_per_m) &&
+         inside(wire::Id::staged_filter_hz, gains.pd.derivative_filter_hz) &&
+         inside(wire::Id::staged_ki_V_per_m_s, gains.ki_V_per_m_s);
 }
 
 Result<GainStore> GainStore::open(const std::filesystem::path& file) {
@@ -78,7 +84,7 @@ Result<GainStore> GainStore::open(const std::filesystem::path& file) {
   return store;
 }
 
-Result<void> GainStore::store(const PdGains& gains) {
+Result<void> GainStore::store(const PidGains& gains) {
   if (!within_bounds(gains)) return failure("gains are out of bounds");
   std::uint32_t newest = 0;
   for (const auto& slot : slots_) newest = slot ? std::max(newest, slot->generation) : newest;

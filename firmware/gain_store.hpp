@@ -7,14 +7,14 @@
 #include <string>
 #include <string_view>
 
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 #include "common/result.hpp"
 
 namespace cartwright::firmware {
 
 struct GainSlot {
   std::uint32_t generation = 0;  ///< counts up with every store; the greatest is the newest
-  PdGains gains;
+  PidGains gains;
 };
 
 /// Two slots of gains in one small text file, each with a CRC-32 of its own. A store goes into the slot that
@@ -33,7 +33,7 @@ class GainStore {
 
   /// Writes gains into the other slot and makes it active. Gains out of bounds or a full disk: nothing
   /// changes.
-  Result<void> store(const PdGains& gains);
+  Result<void> store(const PidGains& gains);
   /// Makes another valid slot the active one, until the next start.
   Result<void> activate(int number);
 
@@ -44,6 +44,6 @@ class GainStore {
 };
 
 /// Whether gains lie in the ranges of the registers they are staged in.
-bool within_bounds(const PdGains& gains);
+bool within_bounds(const PidGains& gains);
 
 }  // namespace cartwright::firmware

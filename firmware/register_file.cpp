@@ -203,7 +203,7 @@ void RegisterFile::command() {
     request_.programme = *programme;
     exchange_.host_lost.store(false, std::memory_order_release);
   } else if (wanted == Command::store_gains) {
-    const auto stored = gains_.store(settings_.gains_from(Id::staged_kp_V_per_m));
+    const auto stored = gains_.store(settings_.staged_gains());
     if (!stored) return answer(Ack::refused, Reason::not_stored, stored.error().message);
     request_.gains = gains_.slot(gains_.active())->gains;
   } else if (wanted == Command::activate_gains) {

@@ -21,7 +21,8 @@ bool between(Id id, Id first, Id last) {
   return id >= first && id <= last;
 }
 
-double gain(const PdGains& gains, std::size_t place) {
+double gain(const PidGains& all, std::size_t place) {
+  const PdGains& gains = all.pd;
   switch (place) {
     case 0:
       return gains.kp_V_per_m;
@@ -29,8 +30,10 @@ double gain(const PdGains& gains, std::size_t place) {
       return gains.kd_V_s_per_m;
     case 2:
       return gains.derivative_filter_hz;
-    default:
+    case 3:
       return gains.derivative_on_measurement ? 1 : 0;
+    default:
+      return all.ki_V_per_m_s;
   }
 }
 
@@ -165,12 +168,12 @@ double RegisterFile::number(Id id, const Client& client, const Status& s,
     default:
       break;
   }
-  if (between(id, Id::active_kp_V_per_m, Id::active_derivative_on_measurement)) {
+  if (between(id, Id::active_kp_V_per_m, Id::active_ki_V_per_m_s)) {
     return gain(s.gains, place(id, Id::active_kp_V_per_m));
   }
   if (between(id, Id::live_compensation, Id::notice_time_s)) return online_number(id, s);
-  if (between(id, Id::gain_slot, Id::slot2_derivative_on_measurement)) return gain_number(id);
-  if (between(id, Id::recording_select, Id::recording_outcome))
+  if (between(id, Id::gain_slot, Id::slot2_ki_V_per_m_s)) return gain_number(id);
+  if (between(id, Id::recording_select, Id::recording_ki_V_per_m_s))
     return recording_number(id, client, recording);
   return settings_[id];
 }
@@ -239,6 +242,8 @@ double RegisterFile::recording_number(Id id, const Client& client, const Recordi
     }
     case Id::recording_law:
       return code(r.law);
+    case Id::recording_ki_V_per_m_s:
+      return r.pd.ki_V_per_m_s;
     case Id::recording_h1_V:
       return r.relay.h1_V;
     case Id::recording_h2_V:

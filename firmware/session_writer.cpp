@@ -36,7 +36,8 @@ std::string to_csv(std::vector<LogRow> rows) {
 }
 
 ControllerSpec controller_of(const RecordingEntry& entry) {
-  if (entry.law == wire::Law::pd) return entry.pd;
+  if (entry.law == wire::Law::pd && entry.pd.ki_V_per_m_s != 0) return entry.pd;
+  if (entry.law == wire::Law::pd) return entry.pd.pd;
   if (entry.law == wire::Law::dual_relay) return entry.relay;
   return {};
 }

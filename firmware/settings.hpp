@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 #include "common/wire/register_map.hpp"
 
 namespace cartwright::firmware {
@@ -20,6 +20,11 @@ class Settings {
 
   int integer(wire::Id id) const { return static_cast<int>((*this)[id]); }
   bool flag(wire::Id id) const { return (*this)[id] != 0; }
+
+  /// What store_gains writes: PD gains and the integral one.
+  PidGains staged_gains() const {
+    return {gains_from(wire::Id::staged_kp_V_per_m), (*this)[wire::Id::staged_ki_V_per_m_s]};
+  }
 
   /// PD gains from a register `kp` and the three after it.
   PdGains gains_from(wire::Id kp) const {

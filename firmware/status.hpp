@@ -6,7 +6,7 @@
 
 #include "common/control/compensation.hpp"
 #include "common/control/dual_relay.hpp"
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 #include "common/identify/online_identifier.hpp"
 #include "common/wire/codes.hpp"
 #include "firmware/compensation_setup.hpp"
@@ -37,7 +37,7 @@ struct Status {
   double reference_m = 0, position_m = 0, voltage_V = 0, added_V = 0, velocity_m_per_s = 0;
   double current_A = kNothing, bus_V = kNothing, motor_C = kNothing;
   double truth_position_m = kNothing, truth_velocity_m_per_s = kNothing;
-  PdGains gains;  ///< active
+  PidGains gains;  ///< active
 
   CompensationMode compensation = CompensationMode::off;
   double compensation_V = 0, sliding_m_per_s = 0;
@@ -59,7 +59,7 @@ struct RecordingEntry {
   std::uint16_t repeat_of = 0;  ///< 1 + the recording it repeats, 0 for none
   std::uint32_t rows = 0, missed_rows = 0;
   std::uint64_t first_row = 0;
-  PdGains pd;
+  PidGains pd;  ///< ki 0: the PD law
   DualRelayGains relay;
 };
 
@@ -67,7 +67,7 @@ struct RecordingEntry {
 struct Request {
   std::uint16_t sequence = 0;
   wire::Command command = wire::Command::none;
-  PdGains gains;                   ///< of store_gains and activate_gains, checked
+  PidGains gains;                  ///< of store_gains and activate_gains, checked
   Programme programme;             ///< of run, made ready
   CompensationSetup compensation;  ///< of set_compensation, made ready
 };

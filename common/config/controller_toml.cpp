@@ -50,18 +50,22 @@ Result<ControllerSpec> controller_from_toml(const TomlReader& entry) {
   if (!table) return tl::unexpected(table.error());
   if (!*table) return ControllerSpec{};
   const TomlReader& spec = **table;
-  const auto type = spec.required_text("type", "\"pd\" or \"dual_relay\"");
+  const auto type = spec.required_text("type", "\"pd\", \"pid\" or \"dual_relay\"");
   if (!type) return tl::unexpected(type.error());
   constexpr double kMost = 1e9;
-  if (*type == "pd") {
+  const bool pid = *type == "pid";
+  if (*type == "pd" || pid) {
     const auto known =
-        spec.only({"type", "kp_V_per_m", "kd_V_s_per_m", "derivative_filter_hz", "derivative_on"});
+        pid ? spec.only({"type", "kp_V_per_m", "ki_V_per_m_s", "kd_V_s_per_m", "derivative_filter_hz",
+                         "derivative_on"})
+            : spec.only({"type", "kp_V_per_m", "kd_V_s_per_m", "derivative_filter_hz", "derivative_on"});
     if (!known) return tl::unexpected(known.error());
+    const auto ki = pid ? spec.required_number("ki_V_per_m_s", -kMost, kMost) : Result<double>(0);
     const auto kp = spec.required_number("kp_V_per_m", -kMost, kMost);
     const auto kd = spec.number("kd_V_s_per_m", 0, -kMost, kMost);
     const auto filter = spec.number("derivative_filter_hz", PdGains{}.derivative_filter_hz, 0, kMost);
     const auto on = spec.text("derivative_on", "error");
-    for (const auto* value : {&kp, &kd, &filter}) {
+    for (const auto* value : {&kp, &ki, &kd, &filter}) {
       if (!*value) return tl::unexpected(value->error());
     }
     if (!on) return tl::unexpected(on.error());
@@ -69,7 +73,9 @@ Result<ControllerSpec> controller_from_toml(const TomlReader& entry) {
       return failure(
           fmt::format("{}: derivative_on must be \"error\" or \"measurement\"", spec.where("derivative_on")));
     }
-    return PdGains{*kp, *kd, *filter, *on == "measurement"};
+    const PdGains pd{*kp, *kd, *filter, *on == "measurement"};
+    if (pid) return PidGains{pd, *ki};
+    return pd;
   }
   if (*type == "dual_relay") {
     const auto known = spec.only({"type", "h1_V", "h2_V", "hysteresis_m"});
@@ -82,15 +88,18 @@ Result<ControllerSpec> controller_from_toml(const TomlReader& entry) {
     }
     return DualRelayGains{*h1, *h2, *hysteresis};
   }
-  return failure(fmt::format("{}: controller type \"{}\" is unknown; it is \"pd\" or \"dual_relay\"",
+  return failure(fmt::format("{}: controller type \"{}\" is unknown; it is \"pd\", \"pid\" or \"dual_relay\"",
                              spec.where("type"), *type));
 }
 
 std::string controller_to_toml(const ControllerSpec& controller) {
-  if (const auto* pd = std::get_if<PdGains>(&controller)) {
+  const auto* pid = std::get_if<PidGains>(&controller);
+  if (const auto* pd = pid ? &pid->pd : std::get_if<PdGains>(&controller)) {
     return fmt::format(
-        "controller = {{ type = \"pd\", kp_V_per_m = {}, kd_V_s_per_m = {}, derivative_filter_hz = {}{} }}\n",
-        pd->kp_V_per_m, pd->kd_V_s_per_m, pd->derivative_filter_hz,
+        "controller = {{ type = \"{}\", kp_V_per_m = {}, {}kd_V_s_per_m = {}, derivative_filter_hz = {}{} "
+        "}}\n",
+        pid ? "pid" : "pd", pd->kp_V_per_m, pid ? fmt::format("ki_V_per_m_s = {}, ", pid->ki_V_per_m_s) : "",
+        pd->kd_V_s_per_m, pd->derivative_filter_hz,
         pd->derivative_on_measurement ? ", derivative_on = \"measurement\"" : "");
   }
   if (const auto* relay = std::get_if<DualRelayGains>(&controller)) {

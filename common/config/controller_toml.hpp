@@ -11,7 +11,8 @@ namespace cartwright {
 Result<Rig> rig_from_toml(const TomlReader& root);
 std::string rig_to_toml(const Rig& rig);
 
-/// `controller = { type = "pd" | "dual_relay", ... }` of a recording; none where there is no such key.
+/// `controller = { type = "pd" | "pid" | "dual_relay", ... }` of a recording; none where there is no such
+/// key.
 Result<ControllerSpec> controller_from_toml(const TomlReader& entry);
 std::string controller_to_toml(const ControllerSpec& controller);
 

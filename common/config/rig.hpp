@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "common/control/dual_relay.hpp"
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 
 namespace cartwright {
 
@@ -20,7 +20,8 @@ struct Rig {
   double period_s() const { return 1 / sample_rate_hz; }
 };
 
-/// The control law a recording was made with; none for a foreign recording.
-using ControllerSpec = std::variant<std::monostate, PdGains, DualRelayGains>;
+/// The control law a recording was made with; none for a foreign recording. PD and PID are kept apart: much
+/// that holds for the first does not for the second.
+using ControllerSpec = std::variant<std::monostate, PdGains, DualRelayGains, PidGains>;
 
 }  // namespace cartwright

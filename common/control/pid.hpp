@@ -17,14 +17,26 @@ struct PidGains {
 ///
 /// The sum includes this tick, as in the dual relay. It stands still at ticks at which the limit acts and the
 /// error would drive the command further beyond it (conditional integration), so that a saturated step does
-/// not wind it up. With Ki = 0 the law is the PD law exactly. No allocation, no exception.
+/// not wind it up; where something after the law limits, as the controller's output stage does, that limit is
+/// told as `windup_limit_V`. With Ki = 0 the law is the PD law exactly. No allocation, no exception.
 class PidController {
  public:
   PidController(const PidGains& gains, double period_s, double voltage_limit_V)
+      : PidController(gains, period_s, voltage_limit_V, voltage_limit_V) {}
+  PidController(const PidGains& gains, double period_s, double voltage_limit_V, double windup_limit_V)
       : pd_(gains.pd, period_s, voltage_limit_V),
         ki_V_per_m_s_(gains.ki_V_per_m_s),
         period_s_(period_s),
-        voltage_limit_V_(voltage_limit_V) {}
+        windup_limit_V_(windup_limit_V) {}
+
+  /// Other gains from the next tick on; what was filtered stays, and what was integrated unless Ki is now
+  /// zero.
+  void set(const PidGains& gains, double period_s) {
+    pd_.set(gains.pd, period_s);
+    ki_V_per_m_s_ = gains.ki_V_per_m_s;
+    if (ki_V_per_m_s_ == 0) integral_m_s_ = 0;
+    period_s_ = period_s;
+  }
 
   void reset() {
     pd_.reset();
@@ -38,7 +50,7 @@ class PidController {
     const double command_V = pd_.update(reference_m, measured_m, added_V + drive_V);
     const double pushes_V = ki_V_per_m_s_ * grows_m_s;
     const bool beyond =
-        (command_V >= voltage_limit_V_ && pushes_V > 0) || (command_V <= -voltage_limit_V_ && pushes_V < 0);
+        (command_V >= windup_limit_V_ && pushes_V > 0) || (command_V <= -windup_limit_V_ && pushes_V < 0);
     if (!beyond) integral_m_s_ += grows_m_s;
     return command_V;
   }
@@ -47,7 +59,7 @@ class PidController {
 
  private:
   PdController pd_;
-  double ki_V_per_m_s_, period_s_, voltage_limit_V_;
+  double ki_V_per_m_s_, period_s_, windup_limit_V_;
   double integral_m_s_ = 0;
 };
 

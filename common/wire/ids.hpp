@@ -60,22 +60,26 @@ enum class Id : std::size_t {
   active_kd_V_s_per_m,
   active_filter_hz,
   active_derivative_on_measurement,
+  active_ki_V_per_m_s,
   slot1_valid,
   slot1_generation,
   slot1_kp_V_per_m,
   slot1_kd_V_s_per_m,
   slot1_filter_hz,
   slot1_derivative_on_measurement,
+  slot1_ki_V_per_m_s,
   slot2_valid,
   slot2_generation,
   slot2_kp_V_per_m,
   slot2_kd_V_s_per_m,
   slot2_filter_hz,
   slot2_derivative_on_measurement,
+  slot2_ki_V_per_m_s,
   staged_kp_V_per_m,
   staged_kd_V_s_per_m,
   staged_filter_hz,
   staged_derivative_on_measurement,
+  staged_ki_V_per_m_s,
   command_sequence,
   command_code,
   command_argument,
@@ -137,6 +141,7 @@ enum class Id : std::size_t {
   recording_hysteresis_m,
   recording_repeat_of,
   recording_outcome,
+  recording_ki_V_per_m_s,
   log_columns,
   log_frozen,
   log_first_row,
@@ -212,6 +217,6 @@ enum class Id : std::size_t {
   notice_time_s,
   notice_text,
 };
-inline constexpr std::size_t kRegisterCount = 205;
+inline constexpr std::size_t kRegisterCount = 210;
 
 }  // namespace cartwright::wire

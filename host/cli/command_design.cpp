@@ -28,7 +28,8 @@ Result<design::RuleComparison> rules_for(const DesignOptions& options, const Des
 std::string gain_file_text(const DesignTask& task, const design::Gains& gains) {
   const design::Loop& loop = task.trials.loop;
   return device::gains_to_toml(
-      {gains.kp_V_per_m, gains.kd_V_s_per_m, loop.derivative_filter_hz, loop.derivative_on_measurement});
+      {{gains.kp_V_per_m, gains.kd_V_s_per_m, loop.derivative_filter_hz, loop.derivative_on_measurement},
+       gains.ki_V_per_m_s});
 }
 
 Outcome run(const DesignOptions& options, const CLI::App& command) {
@@ -47,8 +48,7 @@ Outcome run(const DesignOptions& options, const CLI::App& command) {
     rules = std::move(*compared);
     found = design::search_gains(task->trials, task->search);
   }
-  const std::string text =
-      found.found && !options.ideal && !task->integral ? gain_file_text(*task, found.gains) : std::string();
+  const std::string text = found.found && !options.ideal ? gain_file_text(*task, found.gains) : std::string();
   // The page first: without it there is no gain file either.
   if (!options.report.empty()) {
     const auto page = design::design_page({std::filesystem::path(options.model).filename().string(),

@@ -13,20 +13,27 @@ using device::RegisterBlock;
 using nlohmann::ordered_json;
 using wire::Id;
 
-/// Gains from the register `kp` and the three after it.
-PdGains gains_at(const RegisterBlock& block, Id kp) {
+/// Gains from the register `kp` and the four after it.
+PidGains gains_at(const RegisterBlock& block, Id kp) {
   const auto next = [kp](std::size_t offset) {
     return static_cast<Id>(static_cast<std::size_t>(kp) + offset);
   };
-  return {block.value(kp), block.value(next(1)), block.value(next(2)), block.flag(next(3))};
+  return {{block.value(kp), block.value(next(1)), block.value(next(2)), block.flag(next(3))},
+          block.value(next(4))};
 }
 
-ordered_json to_json(const PdGains& gains) {
-  return {{"type", "pd"},
-          {"kp_V_per_m", gains.kp_V_per_m},
-          {"kd_V_s_per_m", gains.kd_V_s_per_m},
-          {"derivative_filter_hz", gains.derivative_filter_hz},
-          {"derivative_on", gains.derivative_on_measurement ? "measurement" : "error"}};
+ordered_json to_json(const PidGains& gains) {
+  const bool pid = gains.ki_V_per_m_s != 0;
+  ordered_json out = {{"type", pid ? "pid" : "pd"}, {"kp_V_per_m", gains.pd.kp_V_per_m}};
+  if (pid) out["ki_V_per_m_s"] = gains.ki_V_per_m_s;
+  out["kd_V_s_per_m"] = gains.pd.kd_V_s_per_m;
+  out["derivative_filter_hz"] = gains.pd.derivative_filter_hz;
+  out["derivative_on"] = gains.pd.derivative_on_measurement ? "measurement" : "error";
+  return out;
+}
+
+std::string integral_text(const PidGains& gains) {
+  return gains.ki_V_per_m_s == 0 ? std::string() : fmt::format("ki {} V/(m s), ", gains.ki_V_per_m_s);
 }
 
 struct Slot {
@@ -52,7 +59,7 @@ void print_json(const RegisterBlock& block) {
 Outcome get(const device::Address& address, bool json) {
   auto controller = device::Controller::connect(address);
   if (!controller) return conclude(controller.error());
-  const auto block = controller->read(Id::gain_slot, Id::slot2_derivative_on_measurement);
+  const auto block = controller->read(Id::gain_slot, Id::slot2_ki_V_per_m_s);
   if (!block) return conclude(block.error());
   if (json) {
     print_json(*block);
@@ -63,13 +70,13 @@ Outcome get(const device::Address& address, bool json) {
              active == 0 ? std::string("built-in gains") : fmt::format("slot {}", active),
              device::gains_to_toml(gains_at(*block, Id::active_kp_V_per_m)));
   for (int i = 0; i < 2; ++i) {
-    const PdGains gains = gains_at(*block, kSlots[i].kp);
+    const PidGains gains = gains_at(*block, kSlots[i].kp);
     if (!block->flag(kSlots[i].valid)) {
       fmt::print("# Slot {}: empty.\n", i + 1);
     } else {
-      fmt::print("# Slot {}: generation {}, kp {} V/m, kd {} V s/m, filter {} Hz.\n", i + 1,
-                 block->value(kSlots[i].generation), gains.kp_V_per_m, gains.kd_V_s_per_m,
-                 gains.derivative_filter_hz);
+      fmt::print("# Slot {}: generation {}, kp {} V/m, {}kd {} V s/m, filter {} Hz.\n", i + 1,
+                 block->value(kSlots[i].generation), gains.pd.kp_V_per_m, integral_text(gains),
+                 gains.pd.kd_V_s_per_m, gains.pd.derivative_filter_hz);
     }
   }
   return Status::done;
@@ -81,19 +88,20 @@ Outcome flash(const device::Address& address, const std::string& file) {
   auto controller = device::Controller::connect(address);
   if (!controller) return conclude(controller.error());
   const auto staged =
-      controller->write({{Id::staged_kp_V_per_m, gains->kp_V_per_m},
-                         {Id::staged_kd_V_s_per_m, gains->kd_V_s_per_m},
-                         {Id::staged_filter_hz, gains->derivative_filter_hz},
-                         {Id::staged_derivative_on_measurement, gains->derivative_on_measurement}});
+      controller->write({{Id::staged_kp_V_per_m, gains->pd.kp_V_per_m},
+                         {Id::staged_kd_V_s_per_m, gains->pd.kd_V_s_per_m},
+                         {Id::staged_filter_hz, gains->pd.derivative_filter_hz},
+                         {Id::staged_derivative_on_measurement, gains->pd.derivative_on_measurement},
+                         {Id::staged_ki_V_per_m_s, gains->ki_V_per_m_s}});
   if (!staged) return conclude(staged.error());
   if (const auto stored = controller->command(wire::Command::store_gains); !stored)
     return conclude(stored.error());
-  const auto block = controller->read(Id::gain_slot, Id::active_derivative_on_measurement);
+  const auto block = controller->read(Id::gain_slot, Id::active_ki_V_per_m_s);
   if (!block) return conclude(block.error());
-  const PdGains active = gains_at(*block, Id::active_kp_V_per_m);
-  fmt::print("slot {} is active: kp {} V/m, kd {} V s/m, filter {} Hz, derivative on {}\n",
-             block->value(Id::gain_slot), active.kp_V_per_m, active.kd_V_s_per_m, active.derivative_filter_hz,
-             active.derivative_on_measurement ? "measurement" : "error");
+  const PidGains active = gains_at(*block, Id::active_kp_V_per_m);
+  fmt::print("slot {} is active: kp {} V/m, {}kd {} V s/m, filter {} Hz, derivative on {}\n",
+             block->value(Id::gain_slot), active.pd.kp_V_per_m, integral_text(active), active.pd.kd_V_s_per_m,
+             active.pd.derivative_filter_hz, active.pd.derivative_on_measurement ? "measurement" : "error");
   return Status::done;
 }
 

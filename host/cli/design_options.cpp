@@ -184,10 +184,6 @@ Result<DesignTask> design_task(const DesignOptions& o, const CLI::App& command) 
         "or --bandwidth");
   }
   if (o.step_m == 0) return failure("--step 0 is no step: give a size in m");
-  if (o.law == "pid" && !o.out.empty()) {
-    return failure(
-        "--law pid gives no gain file: the controller's gain store holds PD gains; leave out --out");
-  }
   if (o.law == "pd" && !o.ki.empty()) return failure("--ki belongs to --law pid");
   const auto file = read_model_with_intervals(o.model);
   if (!file) return tl::unexpected(file.error());

@@ -15,12 +15,20 @@ namespace {
 
 using wire::Id;
 
+ControllerSpec gains_of(const RegisterBlock& block) {
+  const PdGains pd{block.value(Id::recording_kp_V_per_m), block.value(Id::recording_kd_V_s_per_m),
+                   block.value(Id::recording_filter_hz), block.flag(Id::recording_derivative_on_measurement)};
+  const double ki = block.value(Id::recording_ki_V_per_m_s);
+  if (ki != 0) return PidGains{pd, ki};
+  return pd;
+}
+
 Answer<RecordingInfo> describe(Controller& controller, std::size_t index) {
   if (const auto selected = controller.write({{Id::recording_select, static_cast<double>(index)}});
       !selected) {
     return tl::unexpected(selected.error());
   }
-  const auto block = controller.read(Id::recording_file, Id::recording_outcome);
+  const auto block = controller.read(Id::recording_file, Id::recording_ki_V_per_m_s);
   if (!block) return tl::unexpected(block.error());
   RecordingInfo info;
   info.file = block->text(Id::recording_file);
@@ -32,9 +40,7 @@ Answer<RecordingInfo> describe(Controller& controller, std::size_t index) {
   info.repeat_of = block->integer<unsigned>(Id::recording_repeat_of);
   switch (block->code<wire::Law>(Id::recording_law)) {
     case wire::Law::pd:
-      info.controller = PdGains{
-          block->value(Id::recording_kp_V_per_m), block->value(Id::recording_kd_V_s_per_m),
-          block->value(Id::recording_filter_hz), block->flag(Id::recording_derivative_on_measurement)};
+      info.controller = gains_of(*block);
       break;
     case wire::Law::dual_relay:
       info.controller = DualRelayGains{block->value(Id::recording_h1_V), block->value(Id::recording_h2_V),

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 #include "common/result.hpp"
 
 namespace cartwright::device {
@@ -17,9 +17,10 @@ namespace cartwright::device {
 ///     derivative_filter_hz = 50
 ///     derivative_on = "error"
 ///
-/// Every number must be within the range that the controller takes (register map, staged_*).
-Result<PdGains> gains_from_toml(std::string_view text, const std::string& source);
-Result<PdGains> read_gains(const std::filesystem::path& file);
-std::string gains_to_toml(const PdGains& gains);
+/// With type = "pid" there is ki_V_per_m_s too. Every number must be within the range that the controller
+/// takes (register map, staged_*).
+Result<PidGains> gains_from_toml(std::string_view text, const std::string& source);
+Result<PidGains> read_gains(const std::filesystem::path& file);
+std::string gains_to_toml(const PidGains& gains);
 
 }  // namespace cartwright::device

@@ -4,7 +4,7 @@
 
 namespace cartwright {
 
-/// A recording's own control law run on other readings: PD or dual relay with the recorded reference and
+/// A recording's own control law run on other readings: PD, PID or dual relay with the recorded reference and
 /// added voltage, or the recorded voltage where no law is known. Refers to the recording: keep it.
 class ControlLaw {
  public:
@@ -15,7 +15,7 @@ class ControlLaw {
 
  private:
   const Recording& recording_;
-  std::variant<std::monostate, PdController, DualRelayController> law_;
+  std::variant<std::monostate, PdController, DualRelayController, PidController> law_;
 };
 
 }  // namespace cartwright

@@ -22,6 +22,13 @@ inline ControllerFields controller_fields(const ControllerSpec& controller) {
             {pd->kp_V_per_m, pd->kd_V_s_per_m, pd->derivative_filter_hz,
              pd->derivative_on_measurement ? 1.0 : 0.0}};
   }
+  if (const auto* pid = std::get_if<PidGains>(&controller)) {
+    ControllerFields fields = controller_fields(pid->pd);
+    fields.type = "pid";
+    fields.names.emplace_back("ki_V_per_m_s");
+    fields.values.push_back(pid->ki_V_per_m_s);
+    return fields;
+  }
   if (const auto* relay = std::get_if<DualRelayGains>(&controller)) {
     return {"dual_relay", {"h1_V", "h2_V", "hysteresis_m"}, {relay->h1_V, relay->h2_V, relay->hysteresis_m}};
   }

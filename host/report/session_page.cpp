@@ -24,6 +24,10 @@ bool all_zero(const std::vector<double>& values) {
 }  // namespace
 
 std::string describe(const ControllerSpec& controller) {
+  if (const auto* pid = std::get_if<PidGains>(&controller)) {
+    return fmt::format("PID, {:.4g} V/m, {:.4g} V/(m s), {:.4g} V s/m", pid->pd.kp_V_per_m, pid->ki_V_per_m_s,
+                       pid->pd.kd_V_s_per_m);
+  }
   if (const auto* pd = std::get_if<PdGains>(&controller)) {
     return fmt::format("PD, {:.4g} V/m, {:.4g} V s/m", pd->kp_V_per_m, pd->kd_V_s_per_m);
   }
@@ -35,7 +39,8 @@ std::string describe(const ControllerSpec& controller) {
 
 std::string describe_fully(const ControllerSpec& controller) {
   std::string out = describe(controller);
-  if (const auto* pd = std::get_if<PdGains>(&controller)) {
+  const auto* pid = std::get_if<PidGains>(&controller);
+  if (const auto* pd = pid ? &pid->pd : std::get_if<PdGains>(&controller)) {
     out += fmt::format(", derivative of the {} filtered at {:.4g} Hz",
                        pd->derivative_on_measurement ? "measurement" : "error", pd->derivative_filter_hz);
   }

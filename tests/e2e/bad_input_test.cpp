@@ -77,7 +77,7 @@ std::vector<BadSession> bad_sessions() {
            "[[recording]]\nfile = \"step.csv\"\ncontroller = { type = \"pd\", kp_V_per_m = 1, h1_V = 2 }\n",
        csv()},
       {"a controller nobody knows",
-       std::string(kRig) + "[[recording]]\nfile = \"step.csv\"\ncontroller = { type = \"pid\" }\n", csv()},
+       std::string(kRig) + "[[recording]]\nfile = \"step.csv\"\ncontroller = { type = \"lqr\" }\n", csv()},
       {"a repeat of nothing",
        std::string(kRig) + "[[recording]]\nfile = \"step.csv\"\nrepeat_of = \"other.csv\"\n", csv()},
       {"no recordings", kRig, csv()},

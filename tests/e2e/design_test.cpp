@@ -53,6 +53,27 @@ TEST(DesignCommand, ProposesAGainFileThatTheControllerTakes) {
   EXPECT_NEAR(active["kd_V_s_per_m"], found["gains"]["kd_V_s_per_m"], 1e-5);
 }
 
+TEST(DesignCommand, ProposesPidGainsThatTheControllerRunsAndRecords) {
+  const Scratch scratch;
+  const std::string file = scratch.text("gains.toml");
+  const Finished made = design(scratch, {"--law", "pid", "--kd", "8", "--settling-time", "1", "--overshoot",
+                                         "0.2", "--out", file, "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const double ki = json::parse(made.out)["gains"]["ki_V_per_m_s"];
+  EXPECT_GT(ki, 0);
+  Daemon daemon;
+  ASSERT_TRUE(daemon.ready());
+  ASSERT_EQ(daemon.device({"gains", "flash", file}).status, 0);
+  const json active = json::parse(daemon.device({"gains", "get", "--json"}).out)["controller"];
+  EXPECT_EQ(active["type"], "pid");
+  EXPECT_NEAR(active["ki_V_per_m_s"], ki, 1e-4 * ki);
+  const Finished ran = daemon.device({"run", "step", "--duration-s", "2", "--out", scratch.text("step")});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::ifstream toml(scratch / "step/session.toml");
+  const std::string text((std::istreambuf_iterator<char>(toml)), {});
+  EXPECT_THAT(text, HasSubstr("type = \"pid\", kp_V_per_m = 100"));
+}
+
 TEST(DesignCommand, FindsTheTwoIntervalsOfThePublishedModelWithTheIdealLaw) {
   const Scratch scratch;
   const Finished made =

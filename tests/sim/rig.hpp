@@ -25,7 +25,7 @@ class TestRig {
     for (int i = 0; i < count; ++i) loop.tick();
   }
 
-  bool command(wire::Command command, const Programme& programme = {}, const PdGains& gains = {}) {
+  bool command(wire::Command command, const Programme& programme = {}, const PidGains& gains = {}) {
     auto request = std::make_unique<Request>();
     request->sequence = ++sequence;
     request->command = command;

@@ -153,6 +153,10 @@ std::string session_page() {
             "e_prev = e at the first tick. With derivative_on = \"measurement\" (default \"error\") -y takes "
             "the "
             "place of e in the derivative.")
+      .item("pid",
+            "pd with ki_V_per_m_s times the running sum of e Ts, including this tick, added to the voltage; "
+            "the "
+            "sum stands still while the limit acts and e would drive further beyond it.")
       .item("dual_relay",
             "u = clip(h1 sgn(e) + h2 sgn(I) + d_V), I the running sum of e Ts including this tick, "
             "sgn(0) = +1. hysteresis_m (0) makes the first relay change over only that far past zero.");
