@@ -143,10 +143,10 @@ void expect_the_contracts_law(const RecordingEntry& entry, const std::vector<Log
       u = entry.relay.h1_V * (e >= 0 ? 1 : -1) + entry.relay.h2_V * (integral >= 0 ? 1 : -1);
     } else {
       if (k == 0) e_prev = e;
-      filtered +=
-          (1 - std::exp(-2 * M_PI * entry.pd.derivative_filter_hz * kTs)) * ((e - e_prev) / kTs - filtered);
+      filtered += (1 - std::exp(-2 * M_PI * entry.pd.pd.derivative_filter_hz * kTs)) *
+                  ((e - e_prev) / kTs - filtered);
       e_prev = e;
-      u = entry.pd.kp_V_per_m * e + entry.pd.kd_V_s_per_m * filtered;
+      u = entry.pd.pd.kp_V_per_m * e + entry.pd.pd.kd_V_s_per_m * filtered;
     }
     u = std::clamp(u + rows[k][column::d], -kLimit, kLimit);
     ASSERT_NEAR(rows[k][column::u], u, 1e-9) << entry.file.view() << " row " << k;

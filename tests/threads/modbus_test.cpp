@@ -247,7 +247,7 @@ TEST_F(Served, GainsAreStoredActivatedAndRefused) {
   EXPECT_EQ(host.command(Command::activate_gains, 2), wire::Ack::refused);
   EXPECT_EQ(host.get(Id::ack_reason), static_cast<double>(wire::Reason::bad_slot));
   EXPECT_EQ(host.get(Id::active_kp_V_per_m), 75);
-  EXPECT_EQ(GainStore::open(rig.gain_file)->slot(1)->gains.kp_V_per_m, 75);
+  EXPECT_EQ(GainStore::open(rig.gain_file)->slot(1)->gains.pd.kp_V_per_m, 75);
 }
 
 TEST_F(Served, ASetUpThatDoesNotFitTheRigIsRefusedInWords) {

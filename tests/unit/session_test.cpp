@@ -118,7 +118,7 @@ TEST_F(SessionFiles, RefusesContradictorySessions) {
   EXPECT_THAT(refusal(rig + "[[recording]]\nexperiment = 'step'\n"), HasSubstr("file is missing"));
   EXPECT_THAT(refusal(rig + "[[recording]]\nfile = '../a.csv'\n"), HasSubstr("beside session.toml"));
   EXPECT_THAT(refusal(rig + one + "repeat_of = 'z.csv'\n"), HasSubstr("names no recording"));
-  EXPECT_THAT(refusal(rig + one + "controller = { type = 'pid' }\n"), HasSubstr("type \"pid\" is unknown"));
+  EXPECT_THAT(refusal(rig + one + "controller = { type = 'lqr' }\n"), HasSubstr("type \"lqr\" is unknown"));
   EXPECT_THAT(refusal(rig + one + "controller = { type = 'pd' }\n"), HasSubstr("kp_V_per_m is missing"));
   EXPECT_THAT(refusal(rig + one + "controller = { type = 'pd', kp_V_per_m = 60, ki = 1 }\n"),
               HasSubstr("unknown key ki"));
