@@ -64,7 +64,7 @@ void Plant::correct(double position_m, double velocity_m_per_s) {
 }
 
 void Plant::correct_from_reading(double position_m, double velocity_m_per_s) {
-  if (!terms_.rigid_backlash || state_.contact != 0) return correct(position_m, velocity_m_per_s);
+  if (terms_.gap == 0 || state_.contact != 0) return correct(position_m, velocity_m_per_s);
   const double half = 0.5 * terms_.gap;
   state_.motor_position_m = std::clamp(state_.motor_position_m, position_m - half, position_m + half);
   state_.position_m = position_m;

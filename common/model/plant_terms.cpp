@@ -13,6 +13,19 @@ constexpr double kStepTimesRate = 0.15;
 /// Keeps the cost of a very stiff model bounded. Rates up to 2.7/20 us are still stable.
 constexpr double kLeastStep_s = 2e-5;
 
+/// What joins motor and cart: a flexible coupling or, across a gap, teeth that give. Rate 0: rigid.
+struct Joint {
+  double rate_per_s = 0, damping_ratio = 0;
+};
+
+Joint joint_of(const Model& m) {
+  if (m.has(Term::flexible_coupling))
+    return {kTwoPi * m[Parameter::coupling_resonance], m[Parameter::coupling_damping_ratio]};
+  if (m.has(Term::backlash))
+    return {kTwoPi * m[Parameter::backlash_contact_resonance], m[Parameter::backlash_contact_damping_ratio]};
+  return {};
+}
+
 /// Fastest rate [rad/s] at which a model moves by itself.
 double fastest_rate(const Model& m, const PlantTerms& p) {
   double w = p.viscous * (1 + 0.5 * std::abs(p.viscous_difference)) + p.alpha1 + p.gamma;
@@ -21,11 +34,8 @@ double fastest_rate(const Model& m, const PlantTerms& p) {
   oscillates(p.cogging_amplitude * p.cogging_wavenumber);
   if (p.stribeck_excess > 0) w = std::max(w, p.stribeck_excess * p.stribeck_inverse_speed);
   if (p.has_bristle) oscillates(p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
-  if (m.has(Term::flexible_coupling)) {
-    const double resonance = kTwoPi * m[Parameter::coupling_resonance];
-    w = std::max(w, resonance * std::max(1.0, 2 * m[Parameter::coupling_damping_ratio]));
-  }
-  return w;
+  const Joint joint = joint_of(m);
+  return std::max(w, joint.rate_per_s * std::max(1.0, 2 * joint.damping_ratio));
 }
 
 }  // namespace
@@ -74,14 +84,11 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
       m[flexible ? Parameter::coupling_load_friction_share : Parameter::backlash_load_friction_share];
   load_damping_share =
       m[flexible ? Parameter::coupling_load_damping_share : Parameter::backlash_load_damping_share];
-  coupling_stiffness = coupling_damping = 0;
-  if (flexible) {
-    // Relative motion x = x_motor - x_load of two free masses: x'' = -k x (1/s + 1/(1 - s)) = -w^2 x.
-    const double w = kTwoPi * m[Parameter::coupling_resonance];
-    const double reduced = load_share * (1 - load_share);
-    coupling_stiffness = w * w * reduced;
-    coupling_damping = 2 * m[Parameter::coupling_damping_ratio] * w * reduced;
-  }
+  // Relative motion x = x_motor - x_load of two free masses: x'' = -k x (1/s + 1/(1 - s)) = -w^2 x.
+  const Joint joint = joint_of(m);
+  const double reduced = load_share * (1 - load_share);
+  coupling_stiffness = joint.rate_per_s * joint.rate_per_s * reduced;
+  coupling_damping = 2 * joint.damping_ratio * joint.rate_per_s * reduced;
 
   has_level_shape = stribeck_excess != 0 || spot_peak != 0;
   has_exponential = m.has(Term::exponential_damping);
@@ -93,7 +100,7 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   has_heating = heating_loss != 0;
   has_bristle = bristle_stiffness > 0 && (coulomb > 0 || has_level_shape);
   two_masses = flexible || gap > 0;
-  rigid_backlash = !flexible && gap > 0;
+  rigid_backlash = gap > 0 && joint.rate_per_s == 0;
   varies_in_time = has_lag || has_heating || has_disturbance;
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
   linear = !(two_masses || varies_in_time || has_level_shape || has_exponential || has_cogging ||

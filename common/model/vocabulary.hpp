@@ -59,6 +59,8 @@ enum class Parameter {
   backlash_load_share,
   backlash_load_friction_share,
   backlash_load_damping_share,
+  backlash_contact_resonance,
+  backlash_contact_damping_ratio,
   dead_zone_half_width,
   saturation_limit,
   current_limit,
@@ -86,7 +88,7 @@ enum class Parameter {
   disturbance_peak,
   amplifier_gain_difference,
 };
-inline constexpr std::size_t kParameterCount = 46;
+inline constexpr std::size_t kParameterCount = 48;
 
 struct ParameterInfo {
   Parameter id;

@@ -28,6 +28,7 @@ SessionFacts facts_of(const Session& session) {
   constexpr double kSpeedSpan_s = 0.02;
   std::vector<double> position, voltage, speed;
   SessionFacts facts;
+  facts.count_m = session.rig.encoder_resolution_m;
   for (const Recording& r : session.recordings) {
     position.insert(position.end(), r.y_m.begin(), r.y_m.end());
     for (const double u : r.u_V) voltage.push_back(std::abs(u));
@@ -107,8 +108,7 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       free.scale = 1e-4;
       break;
     case P::backlash_gap:
-      free.scale = 1e-4;
-      free.upper = 0.1 * travel;
+      logarithmic(1e-6 * travel, 0.1 * travel);
       break;
     case P::dead_zone_half_width:
       free.scale = 0.1 * facts.typical_voltage_V;
@@ -128,7 +128,11 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
     case P::coupling_resonance:
       logarithmic(2, 100);
       break;
+    case P::backlash_contact_resonance:
+      logarithmic(50, 300);  // at a kilohertz, stiffer teeth look the same
+      break;
     case P::coupling_damping_ratio:
+    case P::backlash_contact_damping_ratio:
       logarithmic(1e-3, 2);
       break;
     case P::coupling_load_share:
@@ -240,14 +244,17 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
       preslidings.push_back({{P::presliding_stiffness, stiffness}});
     add(T::presliding_friction, {P::presliding_stiffness}, preslidings);
   }
-  for (const double gap : {1e-4, 3e-4, 1e-3}) {
-    for (const double share : {0.3, 0.6}) {
-      gaps.push_back({{P::backlash_gap, gap}, {P::backlash_load_share, share}});
-    }
+  const double count = facts.count_m > 0 ? facts.count_m : 1e-4 * travel;
+  for (double gap = 4 * count; gap < 0.03 * travel && gaps.size() < 6; gap *= 2.5) {
+    gaps.push_back({{P::backlash_gap, gap},
+                    {P::backlash_load_share, 0.5},
+                    {P::backlash_load_damping_share, 0.3},
+                    {P::backlash_contact_resonance, 150},
+                    {P::backlash_contact_damping_ratio, 0.25}});
   }
   add(T::backlash,
       {P::backlash_gap, P::backlash_load_share, P::backlash_load_friction_share,
-       P::backlash_load_damping_share},
+       P::backlash_load_damping_share, P::backlash_contact_resonance, P::backlash_contact_damping_ratio},
       gaps);
   for (const double resonance : {5.0, 9.0, 16.0, 28.0, 50.0}) {
     for (const double share : {0.3, 0.6}) {

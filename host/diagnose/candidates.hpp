@@ -9,6 +9,7 @@ namespace cartwright {
 /// What a session excites; start values and ranges of the candidates are set by it, never by guesses about
 /// the cart.
 struct SessionFacts {
+  double count_m = 0;  ///< of the encoder; 0 where it is not known
   double position_low_m = 0, position_high_m = 0;
   double most_voltage_V = 0;      ///< 99.9th percentile of |u|
   double typical_voltage_V = 0;   ///< root mean square

@@ -22,6 +22,7 @@ constexpr double kLeastParameterChange = 0.08;
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
 constexpr double kMostLeftOfWindows = 0.2;
+constexpr double kShowsMismatch = 1.5;  // window error over noise floor
 constexpr double kMostLeftOfLikelihood = 0.7;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
@@ -116,6 +117,7 @@ class Diagnostician {
     judge();
     name_effects(used);
     name_parameters();
+    propose(used, fit_options);
     remark();
     report("done", 1);
     return std::move(result_);
@@ -160,10 +162,17 @@ class Diagnostician {
   }
 
   double window_share_left() const {
-    const double floor = result_.noise_floor_m * result_.noise_floor_m;
-    const double before = result_.used.refitted * result_.used.refitted - floor;
-    const double after = result_.used.with_effects * result_.used.with_effects - floor;
-    return result_.search.contests.empty() || before <= 0 ? 1.0 : std::clamp(after / before, 0.0, 1.0);
+    if (result_.search.contests.empty()) return 1;
+    const auto left = [](const WindowErrors& errors, double floor_m) {
+      const double floor = floor_m * floor_m;
+      const double before = errors.refitted * errors.refitted - floor;
+      const double after = errors.with_effects * errors.with_effects - floor;
+      return before > 0 ? std::clamp(after / before, 0.0, 1.0) : 1.0;
+    };
+    const double of_used = left(result_.used, result_.noise_floor_m);
+    // What was kept out counts where it shows the mismatch at all.
+    const bool shows = held_floor_m_ > 0 && result_.held_out.refitted > kShowsMismatch * held_floor_m_;
+    return shows ? std::max(of_used, left(result_.held_out, held_floor_m_)) : of_used;
   }
 
   bool values_changed() const {
@@ -201,6 +210,12 @@ class Diagnostician {
   void measure(const Session& used, const std::vector<std::size_t>& held, const FitOptions& fit_options) {
     const Search& found = result_.search;
     const Session repaired = without_jumps(used, found.best.jumps);
+    const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options.damping_per_s);
+    // The floor: the same windows on a cart that is exactly the model found, with the noise found.
+    const auto floor_m = [&](const Session& session) {
+      const Model& model = found.best.fit.model;
+      return window_rmse_m(model, surrogate(session, model, noise, 1), options_.threads);
+    };
     const auto errors = [&](const Session& raw, const Session& mended) {
       WindowErrors w;
       w.nominal = window_rmse_m(nominal_, raw, options_.threads);
@@ -212,13 +227,11 @@ class Diagnostician {
     result_.used = errors(used, repaired);
     if (!held.empty()) {
       const Session out = only(session_, held);
+      held_floor_m_ = floor_m(out);
       result_.held_out =
           errors(out, found.best.has(Term::encoder_missed_counts) ? repair(out, fit_options) : out);
     }
-    // The floor: the same windows on a cart that is exactly the model found, with the noise found.
-    const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options.damping_per_s);
-    const Session twin = surrogate(used, found.best.fit.model, noise, 1);
-    double floor = window_rmse_m(found.best.fit.model, twin, options_.threads);
+    double floor = floor_m(used);
     const double systematic =
         result_.after.repeat_z > 4 ? std::clamp(result_.after.repeat_correlation, 0.0, 1.0) : 0;
     if (systematic > 0) {
@@ -290,6 +303,30 @@ class Diagnostician {
     if (!effect.at_bound.empty()) effect.confidence *= 0.9;
   }
 
+  /// What would settle it, where the data does not: two names that it cannot tell apart, or an effect that is
+  /// weak.
+  void propose(const Session& used, const FitOptions& fit_options) {
+    if (result_.verdict != Verdict::missing_physics) return;
+    const Explanation* rival = nullptr;
+    const Explanation* chosen = &result_.search.best;
+    for (const Contest& contest : result_.search.contests) {
+      const auto effect = std::find_if(result_.effects.begin(), result_.effects.end(),
+                                       [&](const Effect& e) { return e.term == contest.chosen; });
+      for (const Explanation& other : contest.alternatives) {
+        if (rival || effect->equivalent.empty() || other.effects.back() != effect->equivalent.front())
+          continue;
+        rival = &other;
+        chosen = &contest.winner;
+      }
+      if (!rival && contest.gain < 2 * kLeastGain && result_.search.contests.size() == 1)
+        rival = &result_.search.refitted;
+    }
+    if (!rival) return;
+    report("looking for an experiment that decides", 0.95);
+    result_.next_experiment =
+        next_experiment(session_.rig, *chosen, *rival, facts_of(used), fit_options, options_.threads);
+  }
+
   void name_parameters() {
     const Fit& refit = result_.search.refitted.fit;
     const Fit& fit = result_.verdict == Verdict::missing_physics ? result_.search.best.fit : refit;
@@ -317,6 +354,7 @@ class Diagnostician {
   const Model& nominal_;
   const DiagnoseOptions& options_;
   Diagnosis result_;
+  double held_floor_m_ = 0;
 };
 
 }  // namespace

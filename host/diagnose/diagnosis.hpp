@@ -9,6 +9,7 @@
 
 #include "host/diagnose/explain.hpp"
 #include "host/diagnose/locate.hpp"
+#include "host/diagnose/next_experiment.hpp"
 #include "host/statistics/estimate.hpp"
 
 namespace cartwright {
@@ -58,13 +59,6 @@ struct Unexplained {
   SpectralLine line;
   std::optional<Term> closest;
   std::string why_refused;
-};
-
-struct NextExperiment {
-  std::string experiment;  ///< what to run, as `cartwright device run` takes it
-  std::string separates;   ///< which candidates
-  double expected_nats = 0;
-  double chance = 0;  ///< that it will decide
 };
 
 struct Diagnosis {

@@ -10,11 +10,15 @@
 namespace cartwright {
 namespace {
 
-constexpr std::size_t kTermsFitted = 5;   // most terms fitted after a screening
-constexpr std::size_t kStartsFitted = 2;  // most starts of one term
-constexpr double kLeastPromise = 4.0;     // nats, to be fitted at all
-constexpr int kRoundsOfSketch = 2;        // of physics and noise, before the best are fitted to the end
+constexpr std::size_t kTermsFitted = 5;      // most terms fitted after a screening
+constexpr std::size_t kTermsFittedSlow = 2;  // the same on top of two masses, which cost ten times the time
+constexpr std::size_t kStartsFitted = 2;     // most starts of one term
+constexpr double kLeastPromise = 3.0;        // nats, to be fitted at all
+/// A fit gains more than its start promises, up to 7 times in carts of all terms; none was seen to gain more.
+constexpr double kMostGainOverPromise = 10.0;
+constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
 constexpr int kIterationsOfSketch = 6;
+constexpr int kIterationsOfSlowSketch = 3;
 constexpr double kToleranceOfSketch = 2.0;  // nats
 constexpr double kNoiseStepOfSketch = 0.15;
 /// A further effect must gain this share of what the ones before it gained: less is the form of those being a
@@ -25,6 +29,8 @@ constexpr double kWorthFinishing = 0.3;     // of the best gain
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise
 /// Two masses cost ten times the time of one: fitted only where they promise to compete.
 constexpr double kLeastShareOfTwoMasses = 0.25;
+constexpr double kStepOverKinks = 0.05;  // of a parameter's scale
+constexpr int kSweepsOfSketch = 2;
 constexpr double kOutlierOverNoise = 6.0;  // errors beyond this many noise sizes count linearly
 
 class Explainer {
@@ -50,10 +56,11 @@ class Explainer {
     for (std::size_t stage = 0; stage < options_.most_effects; ++stage) {
       report("looking for what was left out",
              (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1));
-      std::vector<Explanation> tried = next_effects(search, stage);
       const double so_far = search.best.score() - search.refitted.score();
       const double bar = std::max(kLeastGain, kLeastShareOfGain * so_far);
+      std::vector<Explanation> tried = next_effects(search, stage, bar);
       if (tried.empty() || tried.front().score() - search.best.score() < bar) break;
+      if (only_went_on(search, tried.front(), bar)) break;
       Contest contest{
           tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
       search.best = tried.front();
@@ -74,7 +81,7 @@ class Explainer {
   void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }
 
   /// Every promising term added to the best explanation so far, fitted; best score first.
-  std::vector<Explanation> next_effects(Search& search, std::size_t stage) {
+  std::vector<Explanation> next_effects(Search& search, std::size_t stage, double least_gain) {
     const Explanation& base = search.best;
     const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
     std::vector<Promise> promises =
@@ -87,18 +94,27 @@ class Explainer {
       return a.log_likelihood_gain > b.log_likelihood_gain;
     });
     if (stage == 0) search.promises = promises;
-    const std::vector<Promise> chosen = worth_fitting(promises);
+    std::vector<Promise> chosen = worth_fitting(promises, least_gain, base);
+    const auto gap = std::find_if(chosen.begin(), chosen.end(), is_gap);
+    if (gap != chosen.end()) {
+      const std::vector<Promise> better =
+          scan_gaps(data, base.fit, *gap, facts_, fit_options_, options_.threads);
+      std::erase_if(chosen, is_gap);
+      chosen.insert(chosen.begin(), better.begin(), better.end());
+    }
     FitOptions sketch = fit_options_;
     sketch.most_rounds = kRoundsOfSketch;
     sketch.most_iterations = kIterationsOfSketch;
     sketch.tolerance = kToleranceOfSketch;
     sketch.finest_noise_step = kNoiseStepOfSketch;
+    if (slow(base)) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
     std::vector<Explanation> tried(chosen.size());
     parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
       tried[i].effects = base.effects;
       tried[i].effects.push_back(chosen[i].term);
       tried[i].jumps = base.jumps;
-      tried[i].fit = fit(data, chosen[i].start, base.fit.noise, chosen[i].free, sketch);
+      tried[i].fit = fit(data, chosen[i].start, base.fit.noise, chosen[i].free,
+                         with_kinks(chosen[i].start, sketch, kSweepsOfSketch));
     });
     if (!base.has(Term::encoder_missed_counts)) add_lost_counts(base, tried);
     tried = best_per_term(std::move(tried));
@@ -139,6 +155,12 @@ class Explainer {
     }
     const double count = session_.rig.encoder_resolution_m;
     if (term == Term::backlash) return one.fit.model[Parameter::backlash_gap] >= count;
+    // A period that the way does not hold twice is not seen to repeat: any bend of a force would look like
+    // it.
+    const double longest_m = facts_.travel_m() / 2;
+    if (term == Term::cogging && one.fit.model[Parameter::cogging_period] > longest_m) return false;
+    if (term == Term::encoder_eccentricity && one.fit.model[Parameter::eccentricity_period] > longest_m)
+      return false;
     if (term == Term::encoder_eccentricity)
       return one.fit.model[Parameter::eccentricity_amplitude] >= 0.1 * count;
     if (term == Term::external_disturbance) return inside_its_recording(one.fit.model);
@@ -153,24 +175,43 @@ class Explainer {
       if (tried[i].score() < bar) return;
       const Session data = without_jumps(session_, tried[i].jumps);
       const Fit& from = tried[i].fit;
-      tried[i].fit = fit(data, from.model, from.noise, from.free, fit_options_);
+      tried[i].fit = fit(data, from.model, from.noise, from.free, with_kinks(from.model, fit_options_, 1));
     });
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
   }
 
-  std::vector<Promise> worth_fitting(const std::vector<Promise>& promises) const {
+  /// Contact comes and goes: the cost of a model with a gap has kinks, so slopes are taken over wider steps.
+  static FitOptions with_kinks(const Model& model, FitOptions options, int sweeps) {
+    if (!model.has(Term::backlash)) return options;
+    options.difference_step = kStepOverKinks;
+    options.compass_sweeps = sweeps;
+    options.most_rounds = std::min(options.most_rounds, 2);
+    options.tolerance = kToleranceOfSketch;
+    return options;
+  }
+
+  static bool slow(const Explanation& one) {
+    return one.has(Term::backlash) || one.has(Term::flexible_coupling);
+  }
+
+  static bool is_gap(const Promise& promise) { return promise.term == Term::backlash; }
+
+  std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double least_gain,
+                                     const Explanation& base) const {
+    const std::size_t most_terms = slow(base) ? kTermsFittedSlow : kTermsFitted;
     std::vector<Promise> chosen;
     std::map<Term, std::size_t> starts;
     for (const Promise& promise : promises) {
-      const double bar = std::max(kLeastPromise, kLeastShareOfBest * promises.front().log_likelihood_gain);
+      const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
+                                   kLeastShareOfBest * promises.front().log_likelihood_gain});
       if (promise.log_likelihood_gain < bar) break;
       const bool two_masses = promise.term == Term::backlash || promise.term == Term::flexible_coupling;
       if (two_masses &&
           promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain) {
         continue;
       }
-      if (!starts.contains(promise.term) && starts.size() >= kTermsFitted) continue;
+      if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
       // A second start is worth its time only where it promises nearly as much.
       if (starts[promise.term] >= kStartsFitted) continue;
       if (starts[promise.term] > 0 && !many_minima(promise.term)) continue;
@@ -211,21 +252,39 @@ class Explainer {
     return kept;
   }
 
+  /// An explanation refitted from where it is, one of its effects taken out.
+  Explanation doing_without(const Explanation& from, std::size_t effect) const {
+    Explanation without = from;
+    const Term term = from.effects[effect];
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+    Model model = from.fit.model;
+    model.remove(term);
+    std::vector<FreeParameter> free;
+    for (const FreeParameter& p : from.fit.free) {
+      if (info(p.id).term != term) free.push_back(p);
+    }
+    const Session data = without_jumps(session_, without.jumps);
+    without.fit = fit(data, model, from.fit.noise, free, with_kinks(model, fit_options_, 1));
+    return without;
+  }
+
+  /// A fit among kinks ends where it cannot go on, and a further effect may gain only because its fit went on
+  /// from there. Then what it found without that effect is taken, and the effect is not.
+  bool only_went_on(Search& search, const Explanation& further, double bar) const {
+    if (!search.best.has(Term::backlash) || further.effects.back() == Term::encoder_missed_counts)
+      return false;
+    Explanation without = doing_without(further, further.effects.size() - 1);
+    if (further.score() - without.score() >= bar) return false;
+    if (without.score() > search.best.score()) search.best = std::move(without);
+    return true;
+  }
+
   /// An effect found early may only have stood in for one found later.
   void drop_redundant(Search& search) const {
     for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
       const Term term = search.best.effects[i];
       if (term == Term::encoder_missed_counts) continue;
-      Explanation without = search.best;
-      without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
-      Model model = search.best.fit.model;
-      model.remove(term);
-      std::vector<FreeParameter> free;
-      for (const FreeParameter& p : search.best.fit.free) {
-        if (info(p.id).term != term) free.push_back(p);
-      }
-      const Session data = without_jumps(session_, without.jumps);
-      without.fit = fit(data, model, search.best.fit.noise, free, fit_options_);
+      Explanation without = doing_without(search.best, i);
       if (search.best.score() - without.score() >= kLeastGain) continue;
       search.best = std::move(without);
       search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));

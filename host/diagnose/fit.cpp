@@ -14,8 +14,7 @@ struct Point {
   double value = 0;  // log-likelihood
 };
 
-constexpr double kMostLogStep = 1.0;    // of a logarithmic parameter in one iteration
-constexpr double kRelativeStep = 2e-3;  // finite difference in units of a parameter's scale
+constexpr double kMostLogStep = 1.0;  // of a logarithmic parameter in one iteration
 
 double loss(double error, double outlier) {
   const double size = std::abs(error);
@@ -46,6 +45,7 @@ class Fitter {
   Fit run(const Model& start, const NoiseModel& noise) const {
     Point at{start, bounded(noise), {}, 0};
     evaluate(at);
+    walk(at);
     bool converged = false;
     for (int round = 0; round < options_.most_rounds && !converged; ++round) {
       const double before = at.value;
@@ -76,6 +76,31 @@ class Fitter {
     }
   }
 
+  /// Compass search over the numbers of a two-mass term: contact comes and goes, so its cost is full of kinks
+  /// and its slope at a point says little of what lies a few per cent away.
+  void walk(Point& at) const {
+    double stride = 1;
+    for (int sweep = 0; sweep < options_.compass_sweeps; ++sweep, stride *= 0.6) {
+      for (const FreeParameter& p : free_) {
+        if (info(p.id).term != Term::backlash) continue;
+        for (const double side : {stride, -stride}) {
+          bool moved = false;
+          for (int times = 0; times < 3; ++times) {
+            const double here = at.model[p.id];
+            const double next = p.logarithmic ? here * std::exp(0.3 * side) : here + 1.5 * p.scale * side;
+            Point there{at.model, at.noise, {}, 0};
+            there.model.set(p.id, std::clamp(next, p.lower, p.upper));
+            evaluate(there);
+            if (there.value <= at.value + options_.tolerance) break;
+            at = std::move(there);
+            moved = true;
+          }
+          if (moved) break;
+        }
+      }
+    }
+  }
+
  private:
   Eigen::MatrixXd jacobian(const Point& at) const {
     const auto rows = static_cast<Eigen::Index>(at.errors.size());
@@ -84,7 +109,7 @@ class Fitter {
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const FreeParameter& p = free_[i];
       const double here = at.model[p.id];
-      double step = kRelativeStep * (p.logarithmic ? here : std::max(p.scale, std::abs(here)));
+      double step = options_.difference_step * (p.logarithmic ? here : std::max(p.scale, std::abs(here)));
       if (here + step > p.upper) step = -step;
       Model there = at.model;
       there.set(p.id, here + step);
@@ -149,11 +174,13 @@ class Fitter {
 
   void normal_equations(const Eigen::MatrixXd& columns, const std::vector<double>& e, Eigen::MatrixXd& h,
                         Eigen::VectorXd& g) const {
-    Eigen::VectorXd slope(columns.rows());
+    Eigen::VectorXd slope(columns.rows()), weight = Eigen::VectorXd::Ones(columns.rows());
     for (Eigen::Index k = 0; k < columns.rows(); ++k) {
-      slope[k] = loss_slope_half(e[static_cast<std::size_t>(k)], options_.outlier_m);
+      const double error = e[static_cast<std::size_t>(k)];
+      slope[k] = loss_slope_half(error, options_.outlier_m);
+      if (slope[k] != error) weight[k] = slope[k] / error;
     }
-    h = columns.transpose() * columns;
+    h = columns.transpose() * weight.asDiagonal() * columns;
     g = columns.transpose() * slope;
   }
 
@@ -192,6 +219,15 @@ class Fitter {
     h.diagonal() += 1e-12 * h.diagonal() + Eigen::VectorXd::Constant(h.rows(), 1e-30);
     const Eigen::MatrixXd inverse = h.ldlt().solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
     result.covariance = inverse * meat * inverse;
+    // Few blocks know of a number that acts for a moment only, and their scores are too small once it is
+    // fitted: no variance is taken to be less than white noise would leave.
+    const double variance = result.error_rms_m * result.error_rms_m;
+    Eigen::VectorXd widen(columns.cols());
+    for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+      widen[i] =
+          std::sqrt(std::max(1.0, variance * inverse(i, i) / std::max(result.covariance(i, i), 1e-300)));
+    }
+    result.covariance = widen.asDiagonal() * result.covariance * widen.asDiagonal();
     result.jacobian = std::move(columns);
     result.error_m = std::move(at.errors);
     return result;

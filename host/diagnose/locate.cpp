@@ -46,7 +46,7 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(bins, bins));
   const double ee = basis.e.squaredNorm();
   map.gain = -0.5 * static_cast<double>(basis.e.size()) * std::log(std::max(1 - x.dot(g) / ee, 1e-9));
-  constexpr double kUpperNormal = 3.1;  // 0.001 per axis, about a dozen axes: 1 in 100 sessions
+  constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
   // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.
   const double l = std::log(40 * looks);

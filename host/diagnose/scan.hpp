@@ -18,6 +18,11 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
                                  const FitOptions& options);
 
+/// Better starts for a gap than `from`, whose promise said that one is worth looking for: size and shares of
+/// it on a grid, each start judged by the likelihood it has as it stands, best first.
+std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Promise& from,
+                               const SessionFacts& facts, const FitOptions& options, unsigned threads);
+
 /// A sudden lasting step of the reading.
 struct ReadingJump {
   std::size_t recording, row;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/blind/cart.hpp"
+
+namespace cartwright::blind {
+
+/// How large an effect is; a medium one changes the motion about ten times as much as the encoder can tell.
+enum class Size { third, small, medium, large };
+std::string_view name(Size size);
+
+/// A cart drawn at random, what it hides, and what its owner believes.
+struct Concealed {
+  CartPhysics physics;
+  std::vector<std::string>
+      expected;  ///< names of the vocabulary; empty where nothing or nothing nameable is hidden
+  std::map<std::string, double> truth;  ///< parameters of the effects, by their names in a model file
+  // The nominal model: a few per cent off, with the terms its owner knows of.
+  double nominal_gain_m_per_s2_V = 0, nominal_viscous_per_s = 0, nominal_coulomb_m_per_s2 = 0;
+  bool nominal_has_coulomb = true;
+};
+
+/// Effects of the vocabulary that can be hidden, and effects that it has no name for.
+const std::vector<std::string>& effects_of_the_vocabulary();
+const std::vector<std::string>& effects_outside();
+
+/// A cart hiding `effects`, each of `size`; `parameter_change` and none at all are possible too.
+Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed);
+
+}  // namespace cartwright::blind

@@ -1,0 +1,102 @@
+#include "tests/blind/outcome.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "host/diagnose/window_errors.hpp"
+#include "host/session/files.hpp"
+#include "tests/blind/battery.hpp"
+
+namespace cartwright::blind {
+namespace {
+
+using P = Parameter;
+
+Model believed(const Concealed& c) {
+  Model model(c.nominal_gain_m_per_s2_V);
+  model.set(P::viscous_coefficient, c.nominal_viscous_per_s);
+  if (c.nominal_has_coulomb) model.set(P::coulomb_level, c.nominal_coulomb_m_per_s2);
+  return model;
+}
+
+/// Of the excess error that the refitted nominal model has on a recording nobody saw, how much the diagnosed
+/// model removes. The floor is what the exactly right model leaves on a cart that hides nothing, same noise.
+double unseen_excess_removed(const Concealed& c, const Diagnosis& d, std::uint64_t seed) {
+  const Session unseen = unseen_track(c.physics, seed);
+  const CartPhysics& p = c.physics;
+  CartPhysics plain;
+  plain.gain_m_per_s2_V = p.gain_m_per_s2_V;
+  plain.viscous_per_s = p.viscous_per_s;
+  plain.coulomb_m_per_s2 = p.coulomb_m_per_s2;
+  plain.disturbance_m_per_s2 = p.disturbance_m_per_s2;
+  plain.disturbance_time_s = p.disturbance_time_s;
+  plain.reading_noise_m = p.reading_noise_m;
+  Model exact(plain.gain_m_per_s2_V);
+  exact.set(P::viscous_coefficient, plain.viscous_per_s).set(P::coulomb_level, plain.coulomb_m_per_s2);
+  const auto square = [](double x) { return x * x; };
+  const double floor = square(window_rmse_m(exact, unseen_track(plain, seed), 1));
+  const double before = square(window_rmse_m(d.refitted, unseen, 1)) - floor;
+  const double after = square(window_rmse_m(d.model, unseen, 1)) - floor;
+  return before > 0 ? 1 - after / before : 1;
+}
+
+}  // namespace
+
+bool Outcome::first_right() const {
+  return !named.empty() && named.front().right;
+}
+
+bool Outcome::all_named() const {
+  return std::all_of(expected.begin(), expected.end(), [this](const std::string& name) {
+    return std::any_of(named.begin(), named.end(), [&](const NamedEffect& n) { return n.name == name; });
+  });
+}
+
+bool Outcome::false_name() const {
+  return std::any_of(named.begin(), named.end(), [](const NamedEffect& n) { return !n.right; });
+}
+
+Outcome ask(const Case& asked, unsigned threads, bool) {
+  const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
+  const Session session = battery(hidden.physics, asked.seed);
+  const Model nominal = believed(hidden);
+  Outcome out;
+  out.asked = asked;
+  out.expected = hidden.expected;
+  DiagnoseOptions options;
+  options.threads = threads;
+  const auto began = std::chrono::steady_clock::now();
+  const Diagnosis d = diagnose(session, nominal, options);
+  out.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  out.verdict = d.verdict;
+  for (const Effect& effect : d.effects) {
+    const std::string name(info(effect.term).name);
+    const bool right = std::find(out.expected.begin(), out.expected.end(), name) != out.expected.end();
+    out.named.push_back({name, effect.confidence, right});
+    for (const auto& [id, e] : effect.parameters) {
+      const auto truth = hidden.truth.find(dotted_name(id));
+      if (truth == hidden.truth.end() || truth->second == 0) continue;
+      out.parameters.push_back({dotted_name(id), std::abs(e.value / truth->second - 1),
+                                e.low <= truth->second && truth->second <= e.high});
+    }
+  }
+  const Estimate& gain = d.parameters.front().refitted;
+  out.gain_error = std::abs(gain.value / hidden.physics.gain_m_per_s2_V - 1);
+  out.gain_covered =
+      gain.low <= hidden.physics.gain_m_per_s2_V && hidden.physics.gain_m_per_s2_V <= gain.high;
+  const bool of_one_moment = hidden.physics.push_recording >= 0 || hidden.physics.lost_rate_per_s > 0;
+  out.unseen_excess_removed = of_one_moment || d.effects.empty()
+                                  ? std::nan("")
+                                  : unseen_excess_removed(hidden, d, asked.seed + 1000003);
+  return out;
+}
+
+Result<void> write_case(const Case& asked, const std::filesystem::path& directory) {
+  const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
+  if (const auto written = write_session(battery(hidden.physics, asked.seed), directory); !written)
+    return written;
+  return write_model(believed(hidden), directory / "nominal.toml");
+}
+
+}  // namespace cartwright::blind
