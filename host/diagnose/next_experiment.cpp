@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 #include "host/diagnose/surrogate.hpp"
 
 namespace cartwright {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "host/diagnose/parallel.hpp"
+#include "host/parallel.hpp"
 #include "host/diagnose/scan.hpp"
 
 namespace cartwright {
