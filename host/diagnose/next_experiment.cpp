@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/parallel.hpp"
 #include "host/diagnose/surrogate.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "host/parallel.hpp"
 #include "host/diagnose/scan.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "host/diagnose/basis.hpp"
 #include "host/diagnose/influence.hpp"
-#include "host/parallel.hpp"
 #include "host/diagnose/scan.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {

@@ -1,7 +1,7 @@
 #include "host/diagnose/window_errors.hpp"
 
-#include "host/parallel.hpp"
 #include "host/evaluate/replay.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 
