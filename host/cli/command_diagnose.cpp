@@ -9,6 +9,7 @@
 #include "host/diagnose/diagnosis.hpp"
 #include "host/diagnose/diagnosis_json.hpp"
 #include "host/diagnose/diagnosis_page.hpp"
+#include "host/diagnose/hygiene.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright::cli {
@@ -55,10 +56,13 @@ Outcome run(const Options& options) {
   if (!model) return tl::unexpected(model.error());
   const auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
+  auto remarks = check_hygiene(*session);
+  if (!remarks) return failure(fmt::format("{}: {}", options.session, remarks.error().message));
   DiagnoseOptions how;
   how.threads = options.threads;
   if (::isatty(STDERR_FILENO)) how.progress = show_progress;
-  const Diagnosis diagnosis = diagnose(*session, *model, how);
+  Diagnosis diagnosis = diagnose(*session, *model, how);
+  diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks->begin(), remarks->end());
   const std::string json = to_json(diagnosis);
   const auto made = make_directory(options.out);
   if (!made) return tl::unexpected(made.error());

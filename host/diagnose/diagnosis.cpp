@@ -299,7 +299,7 @@ class Diagnostician {
       result_.runner_up.push_back({other.effects.back(), weight / (1 + weight), behind});
     }
     const double real = 1 - std::exp(-contest.gain / (2 * kLeastGain));
-    effect.confidence = real * (1 - 0.5 * left) / (1 + others);
+    effect.confidence = real * (1 - left) / (1 + others);
     if (!effect.at_bound.empty()) effect.confidence *= 0.9;
   }
 
@@ -337,6 +337,11 @@ class Diagnostician {
 
   void remark() {
     const auto& list = session_.recordings;
+    const double found = result_.search.refitted.fit.model[P::voltage_gain];
+    if (found * nominal_[P::voltage_gain] < 0) {
+      result_.remarks.push_back(
+          "The cart moves against the voltage: the sign of y_m or of u_V, or the wiring, is reversed.");
+    }
     if (list.size() == 1) result_.remarks.push_back("One recording only: nothing could be held out.");
     if (std::none_of(list.begin(), list.end(), [](const Recording& r) { return !r.repeat_of.empty(); })) {
       result_.remarks.push_back("No repeats: the noise floor rests on the fitted noise alone.");

@@ -1,0 +1,70 @@
+#include "host/diagnose/hygiene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cartwright {
+namespace {
+
+constexpr double kLeastTravel_counts = 3;
+constexpr double kMostRateError = 0.05;
+constexpr double kThroughout = 0.95;  // of the rows
+
+double travel_m(const Recording& r) {
+  const auto [low, high] = std::minmax_element(r.y_m.begin(), r.y_m.end());
+  return *high - *low;
+}
+
+double median_step_s(const Recording& r) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < r.size(); ++k) steps.push_back(r.t_s[k] - r.t_s[k - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+bool at_limit_throughout(const Recording& r, double limit_V) {
+  const auto at_limit = std::count_if(r.u_V.begin(), r.u_V.end(),
+                                      [&](double u) { return std::abs(u) >= limit_V * (1 - 1e-9); });
+  return static_cast<double>(at_limit) >= kThroughout * static_cast<double>(r.size());
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> check_hygiene(const Session& session) {
+  const Rig& rig = session.rig;
+  std::vector<std::string> remarks;
+  bool anything_moves = false;
+  for (const Recording& r : session.recordings) {
+    if (r.size() < 2)
+      return failure(fmt::format("{}: {} rows; a recording needs at least two", r.file, r.size()));
+    const double step_s = median_step_s(r);
+    if (std::abs(step_s * rig.sample_rate_hz - 1) > kMostRateError) {
+      return failure(fmt::format(
+          "{}: rows are {:.4g} ms apart, but session.toml says sample_rate_hz = {:.6g}; {:.4g} would "
+          "be right",
+          r.file, 1e3 * step_s, rig.sample_rate_hz, 1 / step_s));
+    }
+    const bool moves = travel_m(r) > kLeastTravel_counts * rig.encoder_resolution_m;
+    anything_moves = anything_moves || moves;
+    if (!moves) {
+      remarks.push_back(
+          fmt::format("{}: the reading never moves by more than {:.0f} counts; it shows no motion.", r.file,
+                      kLeastTravel_counts));
+    } else if (at_limit_throughout(r, rig.voltage_limit_V)) {
+      remarks.push_back(
+          fmt::format("{}: u_V sits at its limit throughout; it excites next to nothing.", r.file));
+    }
+  }
+  if (!anything_moves) {
+    return failure(
+        "y_m never moves in any recording: there is no motion to compare a model with; check encoder, "
+        "amplifier and "
+        "channel map");
+  }
+  return remarks;
+}
+
+}  // namespace cartwright
