@@ -8,6 +8,9 @@ set(include_rules
   "hal/|common/ hal/"
   "firmware/|common/ hal/interface/ firmware/"
   "host/|common/ host/"
+  "tests/blind/cart|tests/blind/"
+  "tests/blind/concealed|tests/blind/"
+  "tests/blind/battery|tests/blind/ host/session/"
   "tests/|common/ hal/ firmware/ host/ tests/"
   "tools/|common/ hal/ firmware/ host/ tools/")
 set(most_lines 400)

@@ -57,7 +57,7 @@ bool Outcome::false_name() const {
   return std::any_of(named.begin(), named.end(), [](const NamedEffect& n) { return !n.right; });
 }
 
-Outcome ask(const Case& asked, unsigned threads, bool) {
+Outcome ask(const Case& asked, unsigned threads) {
   const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
   const Session session = battery(hidden.physics, asked.seed);
   const Model nominal = believed(hidden);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -40,16 +39,16 @@ struct Outcome {
   std::vector<ParameterOutcome> parameters;
   double gain_error = 0;
   bool gain_covered = false;
-  double unseen_excess_removed = 0;              ///< of the window error of a recording that nobody fitted
-  double time_s = 0;                             ///< of the diagnosis, on the threads it was given
-  std::map<std::string, std::string> baselines;  ///< first name by other methods; empty: none
+  double unseen_excess_removed = 0;  ///< of the window error of a recording that nobody fitted
+  double time_s = 0;                 ///< of the diagnosis, on the threads it was given
 
   bool all_named() const;
   bool first_right() const;
   bool false_name() const;
 };
 
-Outcome ask(const Case& asked, unsigned threads, bool baselines);
+/// Hides, records, diagnoses and compares.
+Outcome ask(const Case& asked, unsigned threads);
 
 /// The session and the nominal model of a case, as files to look at.
 Result<void> write_case(const Case& asked, const std::filesystem::path& directory);
