@@ -289,13 +289,13 @@ class Diagnostician {
     double others = 0;
     const Explanation* winner = &contest.winner;
     for (const Explanation& other : contest.alternatives) {
+      if (result_.search.best.has(other.effects.back())) continue;  // named as well, beside it
       const double behind = winner->score() - other.score();
       const double z = paired_z(winner->fit, other.fit);
       const bool same = behind < kEquivalentNats && z < kEquivalentZ;
       const double weight = std::exp(-std::min(behind / kGainOverPromise, 50.0));
       others += same ? 0 : weight;
       if (same) effect.equivalent.push_back(other.effects.back());
-      if (result_.search.best.has(other.effects.back())) continue;
       result_.runner_up.push_back({other.effects.back(), weight / (1 + weight), behind});
     }
     const double real = 1 - std::exp(-contest.gain / (2 * kLeastGain));

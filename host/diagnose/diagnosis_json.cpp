@@ -150,9 +150,11 @@ std::string model_with_intervals(const Diagnosis& d) {
       text += fmt::format("\"{}\" = [{}, {}]\n", dotted_name(id), e.low, e.high);
     for (const Parameter id : effect.at_bound)
       flags += fmt::format("\"{}\" = \"at bound\"\n", dotted_name(id));
-    for (const Term term : effect.equivalent) {
-      flags += fmt::format("\"{}\" = \"not separable from {}\"\n", info(effect.term).name, info(term).name);
-    }
+    if (effect.equivalent.empty()) continue;
+    std::vector<std::string_view> others;
+    for (const Term term : effect.equivalent) others.push_back(info(term).name);
+    flags +=
+        fmt::format("\"{}\" = \"not separable from {}\"\n", info(effect.term).name, fmt::join(others, ", "));
   }
   if (!flags.empty()) text += "\n[flags]\n" + flags;
   return text;
