@@ -37,7 +37,8 @@ struct PlantOptions {
 /// level. Holds for any step size. A presliding bristle is elastic until it carries the breakaway level, then
 /// slides, and is elastic again from the next standstill. With backlash or a flexible coupling there are two
 /// masses, each with its own friction and its own sticking; backlash contact is rigid and its impacts are
-/// inelastic, unless its teeth give. Constant push, cogging, spring and disturbance act on the cart, the drive on the motor.
+/// inelastic, unless its teeth give. Constant push, cogging, spring and disturbance act on the cart, the
+/// drive on the motor.
 ///
 /// Order of the input chain: dead zone, saturation, gain asymmetry, delay, lag, current limit.
 /// No allocation, no exception; copying copies the whole state.
