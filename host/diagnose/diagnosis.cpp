@@ -23,7 +23,7 @@ constexpr double kLeastParameterChange = 0.08;
 /// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
 constexpr double kMostLeftOfWindows = 0.2;
 constexpr double kShowsMismatch = 1.5;  // window error over noise floor
-constexpr double kMostLeftOfLikelihood = 0.7;
+constexpr double kMostLeftOfLikelihood = 0.5;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;
