@@ -1,11 +1,11 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <memory>
 #include <thread>
 
 #include "host/cli/command.hpp"
+#include "host/cli/progress.hpp"
 #include "host/diagnose/diagnosis.hpp"
 #include "host/diagnose/diagnosis_json.hpp"
 #include "host/diagnose/diagnosis_page.hpp"
@@ -20,11 +20,6 @@ struct Options {
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool json = false;
 };
-
-void show_progress(std::string_view what, double share) {
-  std::fprintf(stderr, "\r\033[K[%3.0f %%] %.*s", 100 * share, static_cast<int>(what.size()), what.data());
-  if (share >= 1) std::fprintf(stderr, "\r\033[K");
-}
 
 void print_summary(const Diagnosis& d, const std::string& out) {
   fmt::print("{}\n", name(d.verdict));
@@ -60,7 +55,11 @@ Outcome run(const Options& options) {
   if (!remarks) return failure(fmt::format("{}: {}", options.session, remarks.error().message));
   DiagnoseOptions how;
   how.threads = options.threads;
-  if (::isatty(STDERR_FILENO)) how.progress = show_progress;
+  ProgressBar bar("diagnosing");
+  how.progress = [&bar](std::string_view what, double share) {
+    bar.label(std::string(what));
+    bar.show(share);
+  };
   Diagnosis diagnosis = diagnose(*session, *model, how);
   diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks->begin(), remarks->end());
   const std::string json = to_json(diagnosis);

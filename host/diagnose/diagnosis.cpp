@@ -11,6 +11,7 @@
 #include "host/diagnose/statement.hpp"
 #include "host/diagnose/surrogate.hpp"
 #include "host/diagnose/window_errors.hpp"
+#include "host/statistics/distributions.hpp"
 
 namespace cartwright {
 namespace {
@@ -30,14 +31,13 @@ constexpr double kGainOverPromise = 5.0;
 /// Two terms are one class when their likelihoods differ by less than chance would make them.
 constexpr double kEquivalentZ = 2.5;
 constexpr double kEquivalentNats = 10;
-constexpr double kNormal95 = 1.96;
 
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
 }
 
 Estimate estimate(const Fit& fit, Parameter id) {
-  const double half = kNormal95 * fit.standard_error(id);
+  const double half = normal(0.95) * fit.standard_error(id);
   const ParameterInfo& range = info(id);
   const double value = fit.model[id];
   return {value, std::max(value - half, range.lower), std::min(value + half, range.upper)};
@@ -65,24 +65,27 @@ Where where_of(const Location& location) {
   return where;
 }
 
-/// How sure one explanation is to be better than another: the sum of paired block differences over its
-/// spread.
+/// How sure one explanation is to be better than another.
 double paired_z(const Fit& better, const Fit& worse) {
-  const std::size_t blocks = std::min(better.block_loss_m2.size(), worse.block_loss_m2.size());
-  const double variance = better.error_rms_m * better.error_rms_m;
-  double sum = 0, squares = 0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const double d = (worse.block_loss_m2[b] - better.block_loss_m2[b]) / (2 * variance);
-    sum += d;
-    squares += d * d;
-  }
-  return squares > 0 ? sum / std::sqrt(squares) : 0;
+  const PairedDifference d = paired_difference(better, worse);
+  return d.spread > 0 ? d.nats / d.spread : 0;
+}
+
+/// Share of the excess of the window errors, above the floor, that the effects leave; 1 where there is no
+/// excess.
+double excess_left(const WindowErrors& errors, double floor_m) {
+  const double floor = floor_m * floor_m;
+  const double before = errors.refitted * errors.refitted - floor;
+  const double after = errors.with_effects * errors.with_effects - floor;
+  return before > 0 ? std::clamp(after / before, 0.0, 1.0) : 1.0;
 }
 
 class Diagnostician {
  public:
   Diagnostician(const Session& session, const Model& nominal, const DiagnoseOptions& options)
-      : session_(session), nominal_(nominal), options_(options) {}
+      : session_(session), nominal_(nominal), options_(options) {
+    fit_options_.damping_per_s = linear_damping(nominal);
+  }
 
   Diagnosis run() {
     std::vector<std::size_t> held = choose_held_out(session_);
@@ -101,23 +104,21 @@ class Diagnostician {
     }
     for (const std::size_t n : held) result_.held_out_recordings.push_back(session_.recordings[n].file);
     const Search& found = result_.search;
-    FitOptions fit_options;
-    fit_options.damping_per_s = linear_damping(nominal_);
 
     report("locating what is left", 0.82);
     const Session repaired = without_jumps(used, found.best.jumps);
-    result_.before = locate(used, found.refitted.fit, fit_options, options_.threads);
+    result_.before = locate(used, found.refitted.fit, fit_options_, options_.threads);
     result_.after = found.contests.empty() ? result_.before
-                                           : locate(repaired, found.best.fit, fit_options, options_.threads);
+                                           : locate(repaired, found.best.fit, fit_options_, options_.threads);
     result_.model = found.best.fit.model;
     result_.refitted = found.refitted.fit.model;
 
     report("replaying windows", 0.88);
-    measure(used, held, fit_options);
+    measure(used, held);
     judge();
     name_effects(used);
     name_parameters();
-    propose(used, fit_options);
+    propose(used);
     remark();
     report("done", 1);
     return std::move(result_);
@@ -132,8 +133,7 @@ class Diagnostician {
   bool shows_a_push(const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     const Session out = only(session_, held);
-    FitOptions as_it_is;
-    as_it_is.damping_per_s = linear_damping(nominal_);
+    FitOptions as_it_is = fit_options_;
     as_it_is.move_noise = false;
     const Fit here = fit(out, best.fit.model, best.fit.noise, {}, as_it_is);
     const std::vector<Promise> promises = scan_pushes(out, here, facts_of(out), as_it_is);
@@ -163,16 +163,10 @@ class Diagnostician {
 
   double window_share_left() const {
     if (result_.search.contests.empty()) return 1;
-    const auto left = [](const WindowErrors& errors, double floor_m) {
-      const double floor = floor_m * floor_m;
-      const double before = errors.refitted * errors.refitted - floor;
-      const double after = errors.with_effects * errors.with_effects - floor;
-      return before > 0 ? std::clamp(after / before, 0.0, 1.0) : 1.0;
-    };
-    const double of_used = left(result_.used, result_.noise_floor_m);
+    const double of_used = excess_left(result_.used, result_.noise_floor_m);
     // What was kept out counts where it shows the mismatch at all.
     const bool shows = held_floor_m_ > 0 && result_.held_out.refitted > kShowsMismatch * held_floor_m_;
-    return shows ? std::max(of_used, left(result_.held_out, held_floor_m_)) : of_used;
+    return shows ? std::max(of_used, excess_left(result_.held_out, held_floor_m_)) : of_used;
   }
 
   bool values_changed() const {
@@ -180,7 +174,7 @@ class Diagnostician {
     return std::any_of(fit.free.begin(), fit.free.end(), [&](const FreeParameter& p) {
       const double change = std::abs(fit.model[p.id] - nominal_[p.id]);
       return relative_change(nominal_[p.id], fit.model[p.id]) > kLeastParameterChange &&
-             change > kNormal95 * fit.standard_error(p.id);
+             change > normal(0.95) * fit.standard_error(p.id);
     });
   }
 
@@ -207,10 +201,10 @@ class Diagnostician {
     result_.unexplained = std::move(left);
   }
 
-  void measure(const Session& used, const std::vector<std::size_t>& held, const FitOptions& fit_options) {
+  void measure(const Session& used, const std::vector<std::size_t>& held) {
     const Search& found = result_.search;
     const Session repaired = without_jumps(used, found.best.jumps);
-    const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options.damping_per_s);
+    const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options_.damping_per_s);
     // The floor: the same windows on a cart that is exactly the model found, with the noise found.
     const auto floor_m = [&](const Session& session) {
       const Model& model = found.best.fit.model;
@@ -228,8 +222,7 @@ class Diagnostician {
     if (!held.empty()) {
       const Session out = only(session_, held);
       held_floor_m_ = floor_m(out);
-      result_.held_out =
-          errors(out, found.best.has(Term::encoder_missed_counts) ? repair(out, fit_options) : out);
+      result_.held_out = errors(out, found.best.has(Term::encoder_missed_counts) ? repair(out) : out);
     }
     double floor = floor_m(used);
     const double systematic =
@@ -242,11 +235,11 @@ class Diagnostician {
   }
 
   /// Lost counts of a recording are found with the model as it stands, nothing fitted but the noise's size.
-  Session repair(const Session& out, FitOptions fit_options) const {
-    fit_options.move_noise = false;
+  Session repair(const Session& out) const {
+    FitOptions as_it_is = fit_options_;
+    as_it_is.move_noise = false;
     const Fit& best = result_.search.best.fit;
-    return without_jumps(out,
-                         scan_jumps(out, fit(out, best.model, best.noise, {}, fit_options), fit_options));
+    return without_jumps(out, scan_jumps(out, fit(out, best.model, best.noise, {}, as_it_is), as_it_is));
   }
 
   void name_effects(const Session& used) {
@@ -254,10 +247,7 @@ class Diagnostician {
     const Search& found = result_.search;
     double gains = 0;
     for (const Contest& contest : found.contests) gains += contest.gain;
-    const double floor = result_.noise_floor_m * result_.noise_floor_m;
-    const double excess = result_.used.refitted * result_.used.refitted - floor;
-    const double removed =
-        excess > 0 ? 1 - (result_.used.with_effects * result_.used.with_effects - floor) / excess : 0;
+    const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
     const Where where = where_of(result_.before);
     for (const Contest& contest : found.contests) {
       Effect effect{contest.chosen, 0, {}, {}, {}, 0, contest.gain, where, ""};
@@ -271,7 +261,7 @@ class Diagnostician {
           if (found.best.fit.at_bound(p.id)) effect.at_bound.push_back(p.id);
         }
       }
-      effect.share_of_excess_error_removed = std::clamp(removed, 0.0, 1.0) * contest.gain / gains;
+      effect.share_of_excess_error_removed = removed * contest.gain / gains;
       compare(contest, effect);
       effect.statement = statement(contest.chosen, result_.model);
       result_.effects.push_back(std::move(effect));
@@ -305,7 +295,7 @@ class Diagnostician {
 
   /// What would settle it, where the data does not: two names that it cannot tell apart, or an effect that is
   /// weak.
-  void propose(const Session& used, const FitOptions& fit_options) {
+  void propose(const Session& used) {
     if (result_.verdict != Verdict::missing_physics) return;
     const Explanation* rival = nullptr;
     const Explanation* chosen = &result_.search.best;
@@ -324,7 +314,7 @@ class Diagnostician {
     if (!rival) return;
     report("looking for an experiment that decides", 0.95);
     result_.next_experiment =
-        next_experiment(session_.rig, *chosen, *rival, facts_of(used), fit_options, options_.threads);
+        next_experiment(session_.rig, *chosen, *rival, facts_of(used), fit_options_, options_.threads);
   }
 
   void name_parameters() {
@@ -358,6 +348,7 @@ class Diagnostician {
   const Session& session_;
   const Model& nominal_;
   const DiagnoseOptions& options_;
+  FitOptions fit_options_;
   Diagnosis result_;
   double held_floor_m_ = 0;
 };

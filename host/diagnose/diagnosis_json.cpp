@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/config/interval_toml.hpp"
 #include "common/config/model_toml.hpp"
 
 namespace cartwright {
@@ -140,14 +141,11 @@ std::string to_json(const Diagnosis& d) {
 }
 
 std::string model_with_intervals(const Diagnosis& d) {
-  std::string text = to_toml(d.model) + "\n# 95 % intervals of the fitted numbers\n[intervals]\n";
-  for (const NominalParameter& p : d.parameters) {
-    text += fmt::format("\"{}\" = [{}, {}]\n", dotted_name(p.id), p.refitted.low, p.refitted.high);
-  }
+  std::vector<ParameterInterval> intervals;
+  for (const NominalParameter& p : d.parameters) intervals.push_back({p.id, p.refitted.low, p.refitted.high});
   std::string flags;
   for (const Effect& effect : d.effects) {
-    for (const auto& [id, e] : effect.parameters)
-      text += fmt::format("\"{}\" = [{}, {}]\n", dotted_name(id), e.low, e.high);
+    for (const auto& [id, e] : effect.parameters) intervals.push_back({id, e.low, e.high});
     for (const Parameter id : effect.at_bound)
       flags += fmt::format("\"{}\" = \"at bound\"\n", dotted_name(id));
     if (effect.equivalent.empty()) continue;
@@ -156,8 +154,8 @@ std::string model_with_intervals(const Diagnosis& d) {
     flags +=
         fmt::format("\"{}\" = \"not separable from {}\"\n", info(effect.term).name, fmt::join(others, ", "));
   }
-  if (!flags.empty()) text += "\n[flags]\n" + flags;
-  return text;
+  if (!flags.empty()) flags.insert(0, "\n[flags]\n");
+  return to_toml(d.model) + intervals_to_toml(intervals) + flags;
 }
 
 }  // namespace cartwright

@@ -151,18 +151,19 @@ class Explainer {
   bool plausible(const Explanation& one) const {
     const Term term = one.effects.back();
     for (const FreeParameter& p : one.fit.free) {
-      if (info(p.id).term == term && p.logarithmic && one.fit.at_bound(p.id)) return false;
+      const bool optional = info(p.id).default_value.has_value();  // rigid teeth are teeth
+      if (info(p.id).term == term && !optional && p.logarithmic && one.fit.at_bound(p.id)) return false;
     }
     const double count = session_.rig.encoder_resolution_m;
     if (term == Term::backlash) return one.fit.model[Parameter::backlash_gap] >= count;
     // A period that the way does not hold twice is not seen to repeat: any bend of a force would look like
     // it.
     const double longest_m = facts_.travel_m() / 2;
-    if (term == Term::cogging && one.fit.model[Parameter::cogging_period] > longest_m) return false;
-    if (term == Term::encoder_eccentricity && one.fit.model[Parameter::eccentricity_period] > longest_m)
-      return false;
-    if (term == Term::encoder_eccentricity)
-      return one.fit.model[Parameter::eccentricity_amplitude] >= 0.1 * count;
+    if (term == Term::cogging) return one.fit.model[Parameter::cogging_period] <= longest_m;
+    if (term == Term::encoder_eccentricity) {
+      return one.fit.model[Parameter::eccentricity_period] <= longest_m &&
+             one.fit.model[Parameter::eccentricity_amplitude] >= 0.1 * count;
+    }
     if (term == Term::external_disturbance) return inside_its_recording(one.fit.model);
     return true;
   }
@@ -191,8 +192,10 @@ class Explainer {
     return options;
   }
 
+  static bool two_masses(Term term) { return term == Term::backlash || term == Term::flexible_coupling; }
+
   static bool slow(const Explanation& one) {
-    return one.has(Term::backlash) || one.has(Term::flexible_coupling);
+    return std::any_of(one.effects.begin(), one.effects.end(), two_masses);
   }
 
   static bool is_gap(const Promise& promise) { return promise.term == Term::backlash; }
@@ -206,8 +209,7 @@ class Explainer {
       const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
                                    kLeastShareOfBest * promises.front().log_likelihood_gain});
       if (promise.log_likelihood_gain < bar) break;
-      const bool two_masses = promise.term == Term::backlash || promise.term == Term::flexible_coupling;
-      if (two_masses &&
+      if (two_masses(promise.term) &&
           promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain) {
         continue;
       }
@@ -222,9 +224,9 @@ class Explainer {
   }
 
   static bool many_minima(Term term) {
-    return term == Term::backlash || term == Term::flexible_coupling || term == Term::cogging ||
-           term == Term::encoder_eccentricity || term == Term::stribeck_friction ||
-           term == Term::position_dependent_friction || term == Term::presliding_friction;
+    return two_masses(term) || term == Term::cogging || term == Term::encoder_eccentricity ||
+           term == Term::stribeck_friction || term == Term::position_dependent_friction ||
+           term == Term::presliding_friction;
   }
 
   void add_lost_counts(const Explanation& base, std::vector<Explanation>& tried) const {

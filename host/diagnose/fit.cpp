@@ -255,6 +255,20 @@ bool Fit::at_bound(Parameter parameter) const {
   return false;
 }
 
+PairedDifference paired_difference(const Fit& better, const Fit& worse) {
+  const std::size_t blocks = std::min(better.block_loss_m2.size(), worse.block_loss_m2.size());
+  const double variance = better.error_rms_m * better.error_rms_m;
+  PairedDifference difference;
+  double squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double d = (worse.block_loss_m2[b] - better.block_loss_m2[b]) / (2 * variance);
+    difference.nats += d;
+    squares += d * d;
+  }
+  difference.spread = std::sqrt(squares);
+  return difference;
+}
+
 double log_likelihood(const std::vector<double>& errors, double outlier) {
   double sum = 0;
   for (const double e : errors) sum += loss(e, outlier);

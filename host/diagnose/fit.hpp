@@ -52,6 +52,13 @@ struct Fit {
   bool at_bound(Parameter parameter) const;
 };
 
+/// By how much one fit is better than another of the same rows, block by block: the sum of the differences of
+/// their losses in units of the better one's noise, and the spread of that sum.
+struct PairedDifference {
+  double nats = 0, spread = 0;
+};
+PairedDifference paired_difference(const Fit& better, const Fit& worse);
+
 /// Length of the blocks that losses and scores are summed over.
 inline constexpr double kBlock_s = 0.25;
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/session/segments.hpp"
+
 namespace cartwright {
 namespace {
 
@@ -15,14 +17,6 @@ constexpr double kThroughout = 0.95;  // of the rows
 double travel_m(const Recording& r) {
   const auto [low, high] = std::minmax_element(r.y_m.begin(), r.y_m.end());
   return *high - *low;
-}
-
-double median_step_s(const Recording& r) {
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < r.size(); ++k) steps.push_back(r.t_s[k] - r.t_s[k - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
 }
 
 bool at_limit_throughout(const Recording& r, double limit_V) {
@@ -40,7 +34,7 @@ Result<std::vector<std::string>> check_hygiene(const Session& session) {
   for (const Recording& r : session.recordings) {
     if (r.size() < 2)
       return failure(fmt::format("{}: {} rows; a recording needs at least two", r.file, r.size()));
-    const double step_s = median_step_s(r);
+    const double step_s = median_period_s(r.t_s);
     if (std::abs(step_s * rig.sample_rate_hz - 1) > kMostRateError) {
       return failure(fmt::format(
           "{}: rows are {:.4g} ms apart, but session.toml says sample_rate_hz = {:.6g}; {:.4g} would "
@@ -61,8 +55,7 @@ Result<std::vector<std::string>> check_hygiene(const Session& session) {
   if (!anything_moves) {
     return failure(
         "y_m never moves in any recording: there is no motion to compare a model with; check encoder, "
-        "amplifier and "
-        "channel map");
+        "amplifier and channel map");
   }
   return remarks;
 }

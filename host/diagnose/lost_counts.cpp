@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/statistics/distributions.hpp"
+
 namespace cartwright {
 
 namespace {
 
 using P = Parameter;
-constexpr double kNormal95 = 1.96;
 
 }  // namespace
 
 std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session,
                                                         const std::vector<ReadingJump>& jumps, Model& model) {
+  const double normal_95 = normal(0.95);
   const double count = session.rig.encoder_resolution_m;
   const double n = static_cast<double>(jumps.size());
   double sum = 0, squares = 0, slowest = 1e9, second = 1e9;
@@ -38,8 +40,8 @@ std::vector<std::pair<Parameter, Estimate>> lost_counts(const Session& session,
   const double rate = fast_s > 0 ? n / fast_s : 0, rate_spread = fast_s > 0 ? std::sqrt(n) / fast_s : 0;
   model.set(P::missed_burst, mean).set(P::missed_rate, rate).set(P::missed_speed, slowest);
   return {
-      {P::missed_burst, {mean, mean - kNormal95 * spread, mean + kNormal95 * spread}},
-      {P::missed_rate, {rate, std::max(0.0, rate - kNormal95 * rate_spread), rate + kNormal95 * rate_spread}},
+      {P::missed_burst, {mean, mean - normal_95 * spread, mean + normal_95 * spread}},
+      {P::missed_rate, {rate, std::max(0.0, rate - normal_95 * rate_spread), rate + normal_95 * rate_spread}},
       // The threshold lies below the slowest burst, by about the spacing of the slow ones.
       {P::missed_speed, {slowest, std::max(0.0, slowest - 3 * (second - slowest) - 0.1 * slowest), slowest}}};
 }

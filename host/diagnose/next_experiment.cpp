@@ -21,7 +21,7 @@ struct Proposal {
   Recording recording;
 };
 
-/// A sum of lines on multiples of 1/duration, of the given greatest value.
+/// A sum of lines spread evenly in the logarithm of frequency, of the given greatest value.
 std::vector<double> multisine(const std::vector<double>& t_s, double low_hz, double high_hz, int lines,
                               double amplitude) {
   std::vector<double> sum(t_s.size(), 0.0);
@@ -110,25 +110,15 @@ std::vector<FreeParameter> of_its_effects(const Explanation& one) {
   return free;
 }
 
-struct Difference {
-  double nats = 0, spread = 0;
-};
-
 /// By how much `data`, made by `truth`, would speak against `rival`.
-Difference difference(const Session& data, const Explanation& truth, const Explanation& rival,
-                      FitOptions options) {
+PairedDifference difference(const Session& data, const Explanation& truth, const Explanation& rival,
+                            FitOptions options) {
   options.move_noise = false;
   options.most_rounds = 1;
   options.most_iterations = 4;
   const Fit right = fit(data, truth.fit.model, truth.fit.noise, {}, options);
   const Fit wrong = fit(data, rival.fit.model, rival.fit.noise, of_its_effects(rival), options);
-  const double variance = right.error_rms_m * right.error_rms_m;
-  double squares = 0;
-  for (std::size_t b = 0; b < right.block_loss_m2.size(); ++b) {
-    const double d = (wrong.block_loss_m2[b] - right.block_loss_m2[b]) / (2 * variance);
-    squares += d * d;
-  }
-  return {right.log_likelihood - wrong.log_likelihood, std::sqrt(squares)};
+  return {right.log_likelihood - wrong.log_likelihood, paired_difference(right, wrong).spread};
 }
 
 /// Within the rig's travel, or where it has been already.
@@ -158,12 +148,12 @@ std::optional<NextExperiment> next_experiment(const Rig& rig, const Explanation&
   std::vector<NextExperiment> judged(proposals.size());
   parallel_for(proposals.size(), threads, [&](std::size_t i) {
     const Session plan{rig, {proposals[i].recording}};
-    Difference least{1e300, 0};
+    PairedDifference least{1e300, 0};
     for (const auto& [truth, rival] : {std::pair{&one, &other}, {&other, &one}}) {
       const NoiseSize noise = noise_size(truth->fit, rig, options.damping_per_s);
       const Session data = surrogate(plan, truth->fit.model, noise, 1);
       if (!stays_inside(data, facts)) return;
-      const Difference d = difference(data, *truth, *rival, options);
+      const PairedDifference d = difference(data, *truth, *rival, options);
       if (d.nats < least.nats) least = d;
     }
     const double z = (least.nats - kLeastGain) / std::max(least.spread, 1.0);
