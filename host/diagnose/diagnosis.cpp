@@ -250,7 +250,7 @@ class Diagnostician {
     const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
     const Where where = where_of(result_.before);
     for (const Contest& contest : found.contests) {
-      Effect effect{contest.chosen, 0, {}, {}, {}, 0, contest.gain, where, ""};
+      Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, where, ""};
       if (contest.chosen == Term::encoder_missed_counts) {
         effect.parameters =
             lost_counts(without_jumps(used, found.best.jumps), found.best.jumps, result_.model);
@@ -262,7 +262,7 @@ class Diagnostician {
         }
       }
       effect.share_of_excess_error_removed = removed * contest.gain / gains;
-      compare(contest, effect);
+      compare(contest, gains, effect);
       effect.statement = statement(contest.chosen, result_.model);
       result_.effects.push_back(std::move(effect));
     }
@@ -273,10 +273,13 @@ class Diagnostician {
   }
 
   /// The chosen against the others that were fitted in its place.
-  void compare(const Contest& contest, Effect& effect) {
-    const double left = result_.unexplained ? result_.unexplained->share_left : 0;
+  void compare(const Contest& contest, double gains, Effect& effect) {
+    Evidence& evidence = effect.evidence;
+    evidence.gain_nats = contest.gain;
+    evidence.share_of_gain = contest.gain / gains;
+    evidence.share_left = result_.unexplained ? result_.unexplained->share_left : 0;
+    evidence.at_bound = static_cast<int>(effect.at_bound.size());
     // The score of the explanation as it stood when this effect was chosen.
-    double others = 0;
     const Explanation* winner = &contest.winner;
     for (const Explanation& other : contest.alternatives) {
       if (result_.search.best.has(other.effects.back())) continue;  // named as well, beside it
@@ -284,13 +287,13 @@ class Diagnostician {
       const double z = paired_z(winner->fit, other.fit);
       const bool same = behind < kEquivalentNats && z < kEquivalentZ;
       const double weight = std::exp(-std::min(behind / kGainOverPromise, 50.0));
-      others += same ? 0 : weight;
+      evidence.margin_nats = std::min(evidence.margin_nats, behind);
+      evidence.rivals += same ? 0 : weight;
       if (same) effect.equivalent.push_back(other.effects.back());
       result_.runner_up.push_back({other.effects.back(), weight / (1 + weight), behind});
     }
-    const double real = 1 - std::exp(-contest.gain / (2 * kLeastGain));
-    effect.confidence = real * (1 - left) / (1 + others);
-    if (!effect.at_bound.empty()) effect.confidence *= 0.9;
+    evidence.equivalent = static_cast<int>(effect.equivalent.size());
+    effect.confidence = confidence(evidence);
   }
 
   /// What would settle it, where the data does not: two names that it cannot tell apart, or an effect that is

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/diagnose/confidence.hpp"
 #include "host/diagnose/explain.hpp"
 #include "host/diagnose/locate.hpp"
 #include "host/diagnose/next_experiment.hpp"
@@ -24,6 +25,7 @@ using Where = std::map<std::string, std::vector<double>>;
 struct Effect {
   Term term;
   double confidence = 0;
+  Evidence evidence;             ///< that the confidence rests on
   std::vector<Term> equivalent;  ///< terms this data cannot tell from it
   std::vector<std::pair<Parameter, Estimate>> parameters;
   std::vector<Parameter> at_bound;

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "tests/blind/saved.hpp"
 #include "tests/blind/summary.hpp"
 
 namespace {
@@ -15,39 +16,23 @@ using namespace cartwright;
 using namespace cartwright::blind;
 
 struct Options {
-  std::string set = "effects";
-  std::vector<int> sizes{2};
-  std::uint64_t seeds = 1, first = 1;
+  std::vector<std::string> sets{"effects"};
+  Draws draws;
   unsigned jobs = 2;
   std::vector<std::string> only;
-  std::string write;
+  bool baselines = false;
+  std::string write, save;
 };
-
-std::string join(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, "+"));
-}
 
 std::vector<Case> cases_of(const Options& options) {
   std::vector<Case> cases;
-  for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed) {
-    if (options.set == "clean") cases.push_back({{}, Size::medium, seed});
-    if (options.set == "change") cases.push_back({{"parameter_change"}, Size::medium, seed});
-    if (options.set == "pairs") {
-      std::mt19937_64 random(seed);
-      const auto& list = effects_of_the_vocabulary();
-      const std::size_t a = random() % list.size(), b = (a + 1 + random() % (list.size() - 1)) % list.size();
-      cases.push_back({{list[a], list[b]}, Size::medium, seed});
-    }
-    if (options.set != "effects" && options.set != "outside") continue;
-    std::uint64_t cart = 100 * seed;  // every case a cart of its own
-    const auto& list = options.set == "effects" ? effects_of_the_vocabulary() : effects_outside();
-    for (const int size : options.sizes) {
-      for (const auto& effect : list) cases.push_back({{effect}, static_cast<Size>(size), cart++});
-    }
+  for (const std::string& set : options.sets) {
+    const std::vector<Case> more = blind::cases_of(set, options.draws);
+    cases.insert(cases.end(), more.begin(), more.end());
   }
   if (!options.only.empty()) {
     std::erase_if(cases, [&](const Case& c) {
-      return std::find(options.only.begin(), options.only.end(), join(c.effects)) == options.only.end();
+      return std::find(options.only.begin(), options.only.end(), effects_of(c)) == options.only.end();
     });
   }
   return cases;
@@ -63,16 +48,16 @@ void print(const Outcome& o) {
                            p.covered ? "" : "*");
   }
   fmt::print("{:28s} {:14s} {:5d} => {:15s}{} |{} | gain {:.3f}%{} removed {:.3f} {:.1f} s\n",
-             join(o.asked.effects), blind::name(o.asked.size), o.asked.seed, cartwright::name(o.verdict),
-             named, numbers, 100 * o.gain_error, o.gain_covered ? "" : "*", o.unseen_excess_removed,
-             o.time_s);
+             effects_of(o.asked), blind::name(o.asked.size), o.asked.seed, cartwright::name(o.verdict), named,
+             numbers, 100 * o.gain_error, o.gain_covered ? "" : "*", o.unseen_excess_removed, o.time_s);
+  for (const auto& [baseline, names] : o.baselines)
+    fmt::print("    {:34s} {}\n", baseline, fmt::join(names, " "));
   std::fflush(stdout);
 }
 
 int write(const std::vector<Case>& cases, const std::filesystem::path& directory) {
   for (const Case& c : cases) {
-    const auto where =
-        directory / fmt::format("{}_{}", c.effects.empty() ? "nothing" : join(c.effects), c.seed);
+    const auto where = directory / fmt::format("{}_{}", effects_of(c), c.seed);
     std::filesystem::create_directories(directory);
     if (const auto written = write_case(c, where); !written) {
       fmt::print(stderr, "blind_proof: {}\n", written.error().message);
@@ -84,39 +69,76 @@ int write(const std::vector<Case>& cases, const std::filesystem::path& directory
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hides physics in carts of its own and asks the diagnosis what it is");
-  Options options;
-  app.add_option("--set", options.set, "what to hide")
-      ->check(CLI::IsMember({"effects", "pairs", "outside", "clean", "change"}))
-      ->capture_default_str();
-  app.add_option("--sizes", options.sizes, "0 a third of small, 1 small, 2 medium, 3 large")
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  app.add_option("--seeds", options.seeds, "how many draws")->capture_default_str();
-  app.add_option("--first", options.first, "the first seed")->capture_default_str();
-  app.add_option("--jobs", options.jobs, "sessions at a time, one thread each")->capture_default_str();
-  app.add_option("--only", options.only, "only these effects");
-  app.add_option("--write", options.write, "write the sessions there, with their truth, and ask nothing");
-  CLI11_PARSE(app, argc, argv);
-  const std::vector<Case> cases = cases_of(options);
-  if (!options.write.empty()) return write(cases, options.write);
+/// Asks what the file of saved outcomes does not hold yet, and adds each answer to it.
+Result<std::vector<Outcome>> ask_all(std::vector<Case> cases, const Options& options) {
   std::vector<Outcome> outcomes;
+  if (!options.save.empty()) {
+    drop_unfinished_line(options.save);
+    auto saved = read_outcomes(options.save);
+    if (!saved) return saved;
+    outcomes = std::move(*saved);
+    const std::size_t all = cases.size();
+    std::erase_if(cases, [&](const Case& c) {
+      return std::any_of(outcomes.begin(), outcomes.end(), [&](const Outcome& o) {
+        return o.asked == c && (!options.baselines || !o.baselines.empty());
+      });
+    });
+    fmt::print(stderr, "{}: {} outcomes, {} of {} cases still to do\n", options.save, outcomes.size(),
+               cases.size(), all);
+  }
   std::atomic<std::size_t> next = 0;
-  std::mutex printing;
+  std::size_t done = 0;
+  std::string trouble;
+  std::mutex one_at_a_time;
   std::vector<std::jthread> workers;
   for (unsigned j = 0; j < options.jobs; ++j) {
     workers.emplace_back([&] {
       for (std::size_t i = next++; i < cases.size(); i = next++) {
-        Outcome outcome = ask(cases[i], 1);
-        const std::lock_guard lock(printing);
+        Outcome outcome = ask(cases[i], options.baselines ? Ask::diagnosis_and_baselines : Ask::diagnosis);
+        const std::lock_guard lock(one_at_a_time);
         print(outcome);
+        fmt::print(stderr, "{} of {}\r", ++done, cases.size());
+        if (!options.save.empty()) {
+          if (const auto saved = append_outcome(outcome, options.save); !saved)
+            trouble = saved.error().message;
+        }
+        std::erase_if(outcomes, [&](const Outcome& o) { return o.asked == outcome.asked; });
         outcomes.push_back(std::move(outcome));
       }
     });
   }
   workers.clear();
-  fmt::print("{}", summary(outcomes));
+  if (!trouble.empty()) return failure(trouble);
+  return outcomes;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Hides physics in carts of its own and asks the diagnosis what it is");
+  Options options;
+  std::vector<std::string> names = sets();
+  names.emplace_back("all");
+  app.add_option("--set", options.sets, "what to hide; several, or all")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  app.add_option("--sizes", options.draws.sizes, "0 a third of small, 1 small, 2 medium, 3 large")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  app.add_option("--seeds", options.draws.seeds, "how many draws")->capture_default_str();
+  app.add_option("--first", options.draws.first, "the first seed")->capture_default_str();
+  app.add_option("--jobs", options.jobs, "sessions at a time, one thread each")->capture_default_str();
+  app.add_option("--only", options.only, "only these effects");
+  app.add_flag("--baselines", options.baselines, "put the same sessions to the baselines as well");
+  app.add_option("--save", options.save, "add each outcome to this file, and skip the cases it holds");
+  app.add_option("--write", options.write, "write the sessions there, with their truth, and ask nothing");
+  CLI11_PARSE(app, argc, argv);
+  const std::vector<Case> cases = cases_of(options);
+  if (!options.write.empty()) return write(cases, options.write);
+  const auto outcomes = ask_all(cases, options);
+  if (!outcomes) {
+    fmt::print(stderr, "blind_proof: {}\n", outcomes.error().message);
+    return 2;
+  }
+  fmt::print("{}", summary(*outcomes));
 }

@@ -1,11 +1,13 @@
 #include "tests/blind/outcome.hpp"
 
+#include <ctime>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "host/diagnose/window_errors.hpp"
 #include "host/session/files.hpp"
+#include "tests/blind/baselines/baselines.hpp"
 #include "tests/blind/battery.hpp"
 
 namespace cartwright::blind {
@@ -18,6 +20,13 @@ Model believed(const Concealed& c) {
   model.set(P::viscous_coefficient, c.nominal_viscous_per_s);
   if (c.nominal_has_coulomb) model.set(P::coulomb_level, c.nominal_coulomb_m_per_s2);
   return model;
+}
+
+/// Processor time of this thread: other programs on the machine do not count.
+double processor_time_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Of the excess error that the refitted nominal model has on a recording nobody saw, how much the diagnosed
@@ -57,7 +66,19 @@ bool Outcome::false_name() const {
   return std::any_of(named.begin(), named.end(), [](const NamedEffect& n) { return !n.right; });
 }
 
-Outcome ask(const Case& asked, unsigned threads) {
+bool Outcome::answered() const {
+  if (asked.effects.empty()) return verdict == Verdict::no_mismatch;
+  if (values_off()) return verdict == Verdict::parameters_only;
+  if (outside()) return verdict == Verdict::unexplained;
+  return expected.size() > 1 ? all_named() : first_right();
+}
+
+double Outcome::excess_over_floor() const {
+  const double ratio = window_error_m / noise_floor_m;
+  return std::sqrt(std::max(ratio * ratio - 1, 0.0));
+}
+
+Outcome ask(const Case& asked, Ask whom) {
   const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
   const Session session = battery(hidden.physics, asked.seed);
   const Model nominal = believed(hidden);
@@ -65,15 +86,17 @@ Outcome ask(const Case& asked, unsigned threads) {
   out.asked = asked;
   out.expected = hidden.expected;
   DiagnoseOptions options;
-  options.threads = threads;
-  const auto began = std::chrono::steady_clock::now();
+  options.threads = 1;
+  const double began_s = processor_time_s();
   const Diagnosis d = diagnose(session, nominal, options);
-  out.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  out.time_s = processor_time_s() - began_s;
   out.verdict = d.verdict;
+  out.window_error_m = d.used.refitted;
+  out.noise_floor_m = d.noise_floor_m;
   for (const Effect& effect : d.effects) {
     const std::string name(info(effect.term).name);
     const bool right = std::find(out.expected.begin(), out.expected.end(), name) != out.expected.end();
-    out.named.push_back({name, effect.confidence, right});
+    out.named.push_back({name, effect.confidence, right, effect.evidence});
     for (const auto& [id, e] : effect.parameters) {
       const auto truth = hidden.truth.find(dotted_name(id));
       if (truth == hidden.truth.end() || truth->second == 0) continue;
@@ -89,6 +112,11 @@ Outcome ask(const Case& asked, unsigned threads) {
   out.unseen_excess_removed = of_one_moment || d.effects.empty()
                                   ? std::nan("")
                                   : unseen_excess_removed(hidden, d, asked.seed + 1000003);
+  if (whom == Ask::diagnosis_and_baselines) {
+    const double before_s = processor_time_s();
+    out.baselines = ask_baselines(session, nominal, d);
+    out.baselines_time_s = processor_time_s() - before_s;
+  }
   return out;
 }
 

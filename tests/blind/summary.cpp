@@ -19,22 +19,14 @@ double quantile(std::vector<double> values, double share) {
 std::string kind(const Outcome& o) {
   if (o.asked.effects.empty()) return "nothing hidden";
   if (o.asked.effects.size() > 1) return "two effects, " + std::string(name(o.asked.size));
-  if (o.asked.effects.front() == "parameter_change") return "values off";
-  if (o.expected.empty()) return "outside, " + std::string(name(o.asked.size));
+  if (o.values_off()) return "values off";
+  if (o.outside()) return "outside, " + std::string(name(o.asked.size));
   return "one effect, " + std::string(name(o.asked.size));
 }
 
 struct Count {
   int cases = 0, right = 0, wrong_name = 0;
 };
-
-/// The right answer: every hidden effect named, or the verdict that says there is none to name.
-bool answered(const Outcome& o) {
-  if (o.asked.effects.empty()) return o.verdict == Verdict::no_mismatch;
-  if (o.asked.effects.front() == "parameter_change") return o.verdict == Verdict::parameters_only;
-  if (o.expected.empty()) return o.verdict == Verdict::unexplained;
-  return o.expected.size() > 1 ? o.all_named() : o.first_right();
-}
 
 }  // namespace
 
@@ -46,7 +38,7 @@ std::string summary(const std::vector<Outcome>& outcomes) {
   for (const Outcome& o : outcomes) {
     Count& count = counts[kind(o)];
     ++count.cases;
-    count.right += answered(o);
+    count.right += o.answered();
     count.wrong_name += o.false_name();
     for (const NamedEffect& n : o.named) {
       Count& bin = sure[static_cast<int>(std::min(n.confidence, 0.999) * 5)];
@@ -54,7 +46,7 @@ std::string summary(const std::vector<Outcome>& outcomes) {
       bin.right += n.right;
     }
     times.push_back(o.time_s);
-    if (o.expected.empty() && !o.asked.effects.empty()) continue;
+    if (o.outside()) continue;
     for (const ParameterOutcome& p : o.parameters) {
       errors.push_back(p.relative_error);
       covered += p.covered;
@@ -83,7 +75,7 @@ std::string summary(const std::vector<Outcome>& outcomes) {
       "excess window error removed on recordings never seen, medium and large: median {:.1f} %, 10th "
       "percentile {:.1f} %\n",
       100 * quantile(removed, 0.5), 100 * quantile(removed, 0.1));
-  text += fmt::format("time on one thread: median {:.1f} s, worst {:.1f} s\n", quantile(times, 0.5),
+  text += fmt::format("processor time: median {:.1f} s, worst {:.1f} s\n", quantile(times, 0.5),
                       quantile(times, 1));
   text += "how sure it was of a name, and how often that was right:\n";
   for (const auto& [bin, c] : sure) {

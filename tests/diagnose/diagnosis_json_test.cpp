@@ -11,7 +11,7 @@ TEST(ModelWithIntervals, IsAModelFileWhateverItsFlags) {
   Diagnosis d;
   d.model = Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::transport_delay, 0.002);
   d.parameters.push_back({Parameter::voltage_gain, 1.8, {1.9, 1.89, 1.91}, 1.9});
-  Effect effect{Term::transport_delay, 0.9, {}, {}, {}, 0, 50, {}, ""};
+  Effect effect{Term::transport_delay, 0.9, {}, {}, {}, {}, 0, 50, {}, ""};
   effect.parameters.emplace_back(Parameter::transport_delay, Estimate{0.002, 0.001, 0.003});
   effect.at_bound = {Parameter::transport_delay};
   effect.equivalent = {Term::armature_lag, Term::presliding_friction};

@@ -1,0 +1,90 @@
+#include "tests/blind/baselines/one_round.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "host/diagnose/basis.hpp"
+
+namespace cartwright::blind {
+namespace {
+
+constexpr double kOutlierOverNoise = 6.0;  // as the product has it
+constexpr double kLeastShareOfTwoMasses = 0.25;
+constexpr double kStepOverKinks = 0.05;
+
+FitOptions quick(const Fit& base) {
+  FitOptions options;
+  options.damping_per_s = linear_damping(base.model);
+  options.outlier_m = kOutlierOverNoise * robust_size(base.error_m);
+  options.most_rounds = 2;
+  options.most_iterations = 6;
+  options.tolerance = 1.0;
+  options.finest_noise_step = 0.15;
+  return options;
+}
+
+bool two_masses(Term term) {
+  return term == Term::backlash || term == Term::flexible_coupling;
+}
+
+/// The best start of each term, strongest first.
+std::vector<Promise> chosen(const std::vector<Promise>& promises, std::size_t most) {
+  std::vector<Promise> chosen;
+  std::set<Term> seen;
+  for (const Promise& promise : promises) {
+    if (chosen.size() >= most || promise.log_likelihood_gain <= 0) break;
+    const double least = kLeastShareOfTwoMasses * promises.front().log_likelihood_gain;
+    if (two_masses(promise.term) && promise.log_likelihood_gain < least) continue;
+    if (seen.insert(promise.term).second) chosen.push_back(promise);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+OneRound one_round(const Session& session, const Fit& base, const std::vector<Promise>& promises,
+                   std::size_t most_terms) {
+  OneRound round{base, {}};
+  const FitOptions options = quick(base);
+  for (const Promise& promise : chosen(promises, most_terms)) {
+    FitOptions own = options;
+    if (two_masses(promise.term)) own.most_rounds = 1, own.most_iterations = 3;
+    if (promise.term == Term::backlash) own.difference_step = kStepOverKinks;
+    round.tried.push_back({promise.term, fit(session, promise.start, base.noise, promise.free, own), {}});
+  }
+  const std::vector<ReadingJump> jumps = scan_jumps(session, base, options);
+  if (like_lost_counts(session, jumps)) {
+    OneMore lost{Term::encoder_missed_counts, {}, jumps};
+    lost.fit = fit(without_jumps(session, jumps), base.model, base.noise, base.free, options);
+    round.tried.push_back(std::move(lost));
+  }
+  std::stable_sort(round.tried.begin(), round.tried.end(), [](const OneMore& a, const OneMore& b) {
+    return a.fit.log_likelihood > b.fit.log_likelihood;
+  });
+  return round;
+}
+
+OneRound one_round(const Session& session, const Fit& base, std::size_t most_terms) {
+  const SessionFacts facts = facts_of(session);
+  const FitOptions options = quick(base);
+  std::vector<Promise> promises = screen(session, base, candidates(base.model, facts), options, 1);
+  for (const auto& found :
+       {scan_periods(session, base, facts, options, 1), scan_pushes(session, base, facts, options)}) {
+    promises.insert(promises.end(), found.begin(), found.end());
+  }
+  std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
+    return a.log_likelihood_gain > b.log_likelihood_gain;
+  });
+  return one_round(session, base, promises, most_terms);
+}
+
+OneRound one_round(const Session& session, const Model& nominal, std::size_t most_terms) {
+  FitOptions options;
+  options.damping_per_s = linear_damping(nominal);
+  const NoiseModel noise = search_noise(session, nominal, options);
+  const Fit first = fit(session, nominal, noise, free_parameters(nominal, facts_of(session)), options);
+  options.outlier_m = kOutlierOverNoise * robust_size(first.error_m);
+  return one_round(session, fit(session, first.model, first.noise, first.free, options), most_terms);
+}
+
+}  // namespace cartwright::blind
