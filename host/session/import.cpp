@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <functional>
 #include <set>
 
+#include "host/session/even_rows.hpp"
+#include "host/session/json_rows.hpp"
 #include "host/session/segments.hpp"
 
 namespace cartwright {
@@ -20,33 +24,69 @@ constexpr double kLeastRate_hz = 2, kMostRate_hz = 1e6;
 /// How far the rate that time implies may lie from the one the rig gives.
 constexpr double kRateTolerance = 0.1;
 
-Result<CsvTable> read_mat(const fs::path& file, const ImportMap& map) {
-  const auto mat = MatFile::open(file);
-  if (!mat) return tl::unexpected(mat.error());
-  CsvTable table;
-  for (const ChannelMap& channel : map.channels) {
-    auto values = mat->read(channel.from);
-    if (!values) return tl::unexpected(values.error());
-    table.names.push_back(channel.column);
-    table.columns.push_back(std::move(*values));
+/// Where a line of the map is read from: gives the numbers of one channel.
+using ChannelReader = std::function<Result<std::vector<double>>(const ChannelSource&)>;
+
+Result<ChannelReader> open_channels(const fs::path& file, const ImportMap& map,
+                                    std::optional<std::size_t> cell_column) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".mat") {
+    const auto mat = MatFile::open(file);
+    if (!mat) return tl::unexpected(mat.error());
+    return [mat = *mat, cell_column](const ChannelSource& source) {
+      MatSelection from = source.from;
+      if (source.every_cell && cell_column) from.cell->second = *cell_column;
+      return mat.read(from);
+    };
   }
-  return table;
+  auto all = extension == ".json" ? read_json_rows(file, map.rows) : read_csv(file);
+  if (!all) return tl::unexpected(all.error());
+  return [table = std::move(*all),
+          name = file.string()](const ChannelSource& source) -> Result<std::vector<double>> {
+    if (const std::vector<double>* found = table.find(source.from.variable)) return *found;
+    return failure(fmt::format("{}: no channel {}; it has {}", name, source.from.variable,
+                               fmt::join(table.names, ", ")));
+  };
 }
 
-Result<CsvTable> read_columns(const fs::path& file, const ImportMap& map) {
-  const auto all = read_csv(file);
-  if (!all) return tl::unexpected(all.error());
-  CsvTable table;
-  for (const ChannelMap& channel : map.channels) {
-    const std::vector<double>* found = all->find(channel.from.variable);
-    if (found == nullptr) {
-      return failure(fmt::format("{}: no channel {}; it has {}", file.string(), channel.from.variable,
-                                 fmt::join(all->names, ", ")));
+/// A two's complement number of `bits` bits that was stored unsigned, put right.
+Result<void> make_signed(std::vector<double>& values, unsigned bits, const std::string& channel) {
+  const double modulus = std::ldexp(1.0, static_cast<int>(bits));
+  for (double& value : values) {
+    if (value < 0 || value >= modulus || value != std::floor(value)) {
+      return failure(fmt::format("{} holds {}, which is no unsigned {} bit number; leave out signed_bits",
+                                 channel, value, bits));
     }
-    table.names.push_back(channel.column);
-    table.columns.push_back(*found);
+    if (value >= 0.5 * modulus) value -= modulus;
   }
-  return table;
+  return {};
+}
+
+Result<std::vector<double>> read_line(const ChannelMap& line, const ChannelReader& read,
+                                      const std::string& file) {
+  std::vector<double> out;
+  for (const ChannelSource& source : line.factors) {
+    auto values = read(source);
+    if (!values) return values;
+    if (source.signed_bits) {
+      const auto done = make_signed(*values, *source.signed_bits, source.from.variable);
+      if (!done) return failure(fmt::format("{}: {}", file, done.error().message));
+    }
+    if (out.empty()) {
+      out = std::move(*values);
+      continue;
+    }
+    if (values->size() != out.size()) {
+      return failure(fmt::format("{}: {} has {} values, {} has {}; what is multiplied must be equally long",
+                                 file, line.factors.front().from.variable, out.size(), source.from.variable,
+                                 values->size()));
+    }
+    for (std::size_t row = 0; row < out.size(); ++row) out[row] *= (*values)[row];
+  }
+  for (double& value : out) value = line.scale * value + line.offset;
+  return out;
 }
 
 double span(const std::vector<double>& values) {
@@ -102,35 +142,38 @@ Result<void> plausible(const Recording& recording, const ImportMap& map, const s
 
 }  // namespace
 
-Result<Recording> import_recording(const fs::path& file, const ImportMap& map) {
-  const std::string extension = file.extension().string();
-  const bool matlab = extension == ".mat" || extension == ".MAT";
-  auto table = matlab ? read_mat(file, map) : read_columns(file, map);
-  if (!table) return tl::unexpected(table.error());
-  for (std::size_t i = 0; i < table->columns.size(); ++i) {
-    if (table->columns[i].size() != table->columns.front().size()) {
+Result<Recording> import_recording(const fs::path& file, const ImportMap& map,
+                                   std::optional<std::size_t> cell_column) {
+  const auto read = open_channels(file, map, cell_column);
+  if (!read) return tl::unexpected(read.error());
+  CsvTable table;
+  for (const ChannelMap& line : map.channels) {
+    auto values = read_line(line, *read, file.string());
+    if (!values) return tl::unexpected(values.error());
+    if (!table.columns.empty() && values->size() != table.rows()) {
       return failure(fmt::format("{}: {} has {} values, {} has {}; all channels must be equally long",
-                                 file.string(), table->names.front(), table->columns.front().size(),
-                                 table->names[i], table->columns[i].size()));
+                                 file.string(), table.names.front(), table.rows(), line.column,
+                                 values->size()));
     }
-    for (double& value : table->columns[i]) value = map.channels[i].scale * value + map.channels[i].offset;
+    table.names.push_back(line.column);
+    table.columns.push_back(std::move(*values));
   }
-  if (table->find("t_s") == nullptr) {
-    std::vector<double> t_s(table->rows());
+  if (table.find("t_s") == nullptr) {
+    std::vector<double> t_s(table.rows());
     for (std::size_t row = 0; row < t_s.size(); ++row)
       t_s[row] = static_cast<double>(row) / map.rig.sample_rate_hz;
-    table->names.emplace_back("t_s");
-    table->columns.push_back(std::move(t_s));
+    table.names.emplace_back("t_s");
+    table.columns.push_back(std::move(t_s));
   }
   Recording recording;
-  recording.file = file.stem().string() + ".csv";
+  recording.file = file.stem().string() + (cell_column ? fmt::format("_{}", *cell_column) : "") + ".csv";
   recording.experiment = map.experiment;
   recording.controller = map.controller;
-  const auto taken = take_columns(recording, std::move(*table), file.string());
+  const auto taken = take_columns(recording, std::move(table), file.string());
   if (!taken) return tl::unexpected(taken.error());
   const auto checked = plausible(recording, map, file.string());
   if (!checked) return tl::unexpected(checked.error());
-  return recording;
+  return map.resample_hz ? even_rows(recording, *map.resample_hz) : recording;
 }
 
 Result<Session> import_session(std::span<const fs::path> files, const ImportMap& map) {
@@ -138,8 +181,13 @@ Result<Session> import_session(std::span<const fs::path> files, const ImportMap&
   session.rig = map.rig;
   std::set<std::string> names;
   double rate_hz = 0, voltage_V = 0, least_m = 0, most_m = 0;
+  std::vector<std::pair<fs::path, std::optional<std::size_t>>> sources;
   for (const fs::path& file : files) {
-    auto recording = import_recording(file, map);
+    if (map.cell_columns.empty()) sources.emplace_back(file, std::nullopt);
+    for (const std::size_t column : map.cell_columns) sources.emplace_back(file, column);
+  }
+  for (const auto& [file, cell_column] : sources) {
+    auto recording = import_recording(file, map, cell_column);
     if (!recording) return tl::unexpected(recording.error());
     if (!names.insert(recording->file).second) {
       return failure(fmt::format("{}: another file of that name would become {} too; rename one",

@@ -24,55 +24,131 @@ Result<std::optional<std::size_t>> position(const TomlReader& entry, std::string
   return std::optional(static_cast<std::size_t>(*value));
 }
 
-Result<ChannelMap> channel_from_toml(const TomlReader& channels, const std::string& column) {
-  ChannelMap out;
-  out.column = column;
-  if (!is_identifier(column)) {
-    return failure(fmt::format("{}: {} is no valid column name", channels.where(column), column));
-  }
-  if (channels.raw()[column].is_string()) {
-    const auto name = channels.text(column, "");
-    if (!name) return tl::unexpected(name.error());
-    out.from.variable = *name;
-    return out;
-  }
-  if (!channels.raw()[column].is_table()) {
-    return failure(
-        fmt::format("{}: {} must be \"NAME\" or {{ channel = \"NAME\", scale = 1.0, offset = 0.0 }}",
-                    channels.where(column), column));
-  }
-  const auto table = channels.table(column);
-  if (!table) return tl::unexpected(table.error());
-  const TomlReader& entry = **table;
-  const auto known = entry.only({"channel", "scale", "offset", "row", "column", "cell"});
-  if (!known) return tl::unexpected(known.error());
+/// Which numbers a table `{ channel = "NAME", ... }` takes.
+Result<ChannelSource> source_from_toml(const TomlReader& entry) {
   const auto name = entry.required_text("channel", "the channel's name in the file");
-  const auto scale = entry.number("scale", 1, -kMost, kMost);
-  const auto offset = entry.number("offset", 0, -kMost, kMost);
   const auto row = position(entry, "row");
   const auto pick = position(entry, "column");
+  const auto cell_row = position(entry, "cell_row");
+  const auto bits = position(entry, "signed_bits");
   if (!name) return tl::unexpected(name.error());
-  for (const auto* value : {&scale, &offset}) {
-    if (!*value) return tl::unexpected(value->error());
-  }
-  for (const auto* value : {&row, &pick}) {
+  for (const auto* value : {&row, &pick, &cell_row, &bits}) {
     if (!*value) return tl::unexpected(value->error());
   }
   if (*row && *pick) return failure(fmt::format("{}: give row or column, not both", entry.where("row")));
-  if (*scale == 0)
-    return failure(fmt::format("{}: scale = 0 would leave nothing of the channel", entry.where("scale")));
-  out.from = {*name, std::nullopt, *row, *pick};
+  if (*cell_row && entry.has("cell"))
+    return failure(fmt::format("{}: give cell or cell_row, not both", entry.where("cell_row")));
+  if (*bits && (**bits < 2 || **bits > 32))
+    return failure(fmt::format("{}: signed_bits must lie within 2 and 32", entry.where("signed_bits")));
+  ChannelSource source;
+  source.from = {*name, std::nullopt, *row, *pick};
+  if (*bits) source.signed_bits = static_cast<unsigned>(**bits);
   if (entry.has("cell")) {
     const auto cell = entry.numbers("cell", 2);
     if (!cell) return tl::unexpected(cell.error());
     if ((*cell)[0] < 1 || (*cell)[1] < 1) {
       return failure(fmt::format("{}: cell = [row, column] counts from 1", entry.where("cell")));
     }
-    out.from.cell = {static_cast<std::size_t>((*cell)[0]), static_cast<std::size_t>((*cell)[1])};
+    source.from.cell = {static_cast<std::size_t>((*cell)[0]), static_cast<std::size_t>((*cell)[1])};
   }
+  if (*cell_row) {
+    source.from.cell = {**cell_row, 0};
+    source.every_cell = true;
+  }
+  return source;
+}
+
+/// A channel by its name alone, or as a table.
+Result<ChannelSource> source_at(const TomlReader& parent, const std::string& key, std::string_view usage) {
+  if (parent.raw()[key].is_string()) {
+    ChannelSource source;
+    source.from.variable = *parent.text(key, "");
+    return source;
+  }
+  if (!parent.raw()[key].is_table())
+    return failure(fmt::format("{}: {} must be \"NAME\" or {}", parent.where(key), key, usage));
+  const auto table = parent.table(key);
+  if (!table) return tl::unexpected(table.error());
+  const auto known = (*table)->only({"channel", "row", "column", "cell", "cell_row", "signed_bits"});
+  if (!known) return tl::unexpected(known.error());
+  return source_from_toml(**table);
+}
+
+Result<ChannelMap> channel_from_toml(const TomlReader& channels, const std::string& column) {
+  ChannelMap out;
+  out.column = column;
+  if (!is_identifier(column)) {
+    return failure(fmt::format("{}: {} is no valid column name", channels.where(column), column));
+  }
+  if (!channels.raw()[column].is_table()) {
+    const auto source = source_at(channels, column, "{ channel = \"NAME\", scale = 1.0, offset = 0.0 }");
+    if (!source) return tl::unexpected(source.error());
+    out.factors.push_back(*source);
+    return out;
+  }
+  const auto table = channels.table(column);
+  if (!table) return tl::unexpected(table.error());
+  const TomlReader& entry = **table;
+  const auto known =
+      entry.only({"channel", "scale", "offset", "row", "column", "cell", "cell_row", "signed_bits", "times"});
+  if (!known) return tl::unexpected(known.error());
+  const auto source = source_from_toml(entry);
+  if (!source) return tl::unexpected(source.error());
+  out.factors.push_back(*source);
+  if (entry.has("times")) {
+    const auto times = source_at(entry, "times", "{ channel = \"NAME\", ... }");
+    if (!times) return tl::unexpected(times.error());
+    out.factors.push_back(*times);
+  }
+  const auto scale = entry.number("scale", 1, -kMost, kMost);
+  const auto offset = entry.number("offset", 0, -kMost, kMost);
+  for (const auto* value : {&scale, &offset}) {
+    if (!*value) return tl::unexpected(value->error());
+  }
+  if (*scale == 0)
+    return failure(fmt::format("{}: scale = 0 would leave nothing of the channel", entry.where("scale")));
   out.scale = *scale;
   out.offset = *offset;
   return out;
+}
+
+Result<void> recording_from_toml(const TomlReader& entry, ImportMap& map) {
+  const auto only = entry.only({"experiment", "rows", "resample_hz", "cell_columns"});
+  if (!only) return tl::unexpected(only.error());
+  const auto experiment = entry.text("experiment", "");
+  if (!experiment) return tl::unexpected(experiment.error());
+  map.experiment = *experiment;
+  const auto rows = entry.text("rows", "");
+  if (!rows) return tl::unexpected(rows.error());
+  map.rows = *rows;
+  if (entry.has("resample_hz")) {
+    const auto rate = entry.required_number("resample_hz", 1, 1e6);
+    if (!rate) return tl::unexpected(rate.error());
+    if (map.rate_given)
+      return failure(fmt::format("{}: resample_hz sets the rate; leave sample_rate_hz out of [rig]",
+                                 entry.where("resample_hz")));
+    map.resample_hz = *rate;
+  }
+  const bool per_cell = std::any_of(map.channels.begin(), map.channels.end(), [](const ChannelMap& c) {
+    return std::any_of(c.factors.begin(), c.factors.end(),
+                       [](const ChannelSource& s) { return s.every_cell; });
+  });
+  if (per_cell != entry.has("cell_columns")) {
+    return failure(fmt::format("{}: cell_row in [channels] and cell_columns in [recording] go together",
+                               entry.where(per_cell ? "experiment" : "cell_columns")));
+  }
+  if (const toml::array* list = entry.raw()["cell_columns"].as_array()) {
+    for (const toml::node& node : *list) {
+      const auto value = node.value<std::int64_t>();
+      if (!value || *value < 1)
+        return failure(fmt::format("{}: cell_columns counts from 1", entry.where("cell_columns")));
+      map.cell_columns.push_back(static_cast<std::size_t>(*value));
+    }
+  }
+  if (per_cell && map.cell_columns.empty())
+    return failure(
+        fmt::format("{}: cell_columns must be a list like [2, 4, 6]", entry.where("cell_columns")));
+  return {};
 }
 
 }  // namespace
@@ -132,13 +208,9 @@ Result<ImportMap> read_import_map(const std::filesystem::path& file) {
   }
   const auto recording = root.table("recording");
   if (!recording) return tl::unexpected(recording.error());
-  if (*recording) {
-    const auto only = (*recording)->only({"experiment"});
-    if (!only) return tl::unexpected(only.error());
-    const auto experiment = (*recording)->text("experiment", "");
-    if (!experiment) return tl::unexpected(experiment.error());
-    map.experiment = *experiment;
-  }
+  static const toml::table none;
+  const auto taken = recording_from_toml(*recording ? **recording : TomlReader(none, map.source), map);
+  if (!taken) return tl::unexpected(taken.error());
   return map;
 }
 

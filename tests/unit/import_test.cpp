@@ -39,7 +39,7 @@ class ImportTest : public testing::Test {
   }
 
   /// Vectors "t", "q" (millimetres), "v" and a 3 x N matrix "data", a structure "run" with field "q", a cell
-  /// "cells".
+  /// "cells", and cells "runs" of two rows and three columns: the time; position, position, voltage.
   fs::path mat(mat_ft version) {
     const fs::path file = directory_ / "recording.mat";
     mat_t* out = Mat_CreateVer(file.c_str(), nullptr, version);
@@ -71,6 +71,13 @@ class ImportTest : public testing::Test {
     Mat_VarSetCell(cells, 0, variable(nullptr, kRows, 1, t_s_));
     Mat_VarSetCell(cells, 1, variable(nullptr, kRows, 1, u_V_));
     keep(cells);
+    std::size_t runs_size[2] = {2, 3};
+    matvar_t* runs = Mat_VarCreate("runs", MAT_C_CELL, MAT_T_CELL, 2, runs_size, nullptr, 0);
+    for (int n = 0; n < 3; ++n) {
+      Mat_VarSetCell(runs, 2 * n, variable(nullptr, kRows, 1, t_s_));
+      Mat_VarSetCell(runs, 2 * n + 1, variable(nullptr, kRows, 1, n == 2 ? u_V_ : y_m_));
+    }
+    keep(runs);
     Mat_Close(out);
     return file;
   }
@@ -108,6 +115,24 @@ TEST_F(ImportTest, RowsCellsAndFieldsArePicked) {
   ASSERT_TRUE(recording) << recording.error().message;
   EXPECT_EQ(recording->t_s, t_s_);
   EXPECT_EQ(recording->u_V, u_V_);
+}
+
+TEST_F(ImportTest, EveryColumnOfCellsBecomesARecording) {
+  const auto channels = map(
+      "[channels]\nt_s = { channel = \"runs\", cell_row = 1 }\ny_m = { channel = \"runs\", cell_row = 2 }\n"
+      "u_V = { channel = \"runs\", cell_row = 2, scale = 2 }\n[recording]\ncell_columns = [1, 3]\n");
+  ASSERT_TRUE(channels) << channels.error().message;
+  const std::vector<fs::path> files{mat(MAT_FT_MAT5)};
+  const auto session = import_session(files, *channels);
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_EQ(session->recordings.size(), 2u);
+  EXPECT_EQ(session->recordings[0].file, "recording_1.csv");
+  EXPECT_EQ(session->recordings[1].file, "recording_3.csv");
+  EXPECT_EQ(session->recordings[0].y_m, y_m_);
+  EXPECT_EQ(session->recordings[1].y_m, u_V_);
+  const auto all = import_recording(files[0], *channels, 4);
+  ASSERT_FALSE(all);
+  EXPECT_THAT(all.error().message, HasSubstr("no cell [1, 4]"));
 }
 
 TEST_F(ImportTest, WhatIsNotThereIsNamed) {
