@@ -20,6 +20,7 @@ struct Options {
   std::string terms = "viscous_friction,coulomb_friction";
   double window_s = WeakFormOptions{}.window_s;
   bool plain = false;
+  ForceScale force_scale;
   // The forms of one step response.
   std::string recording, input = "error";
   double duration_s = StepOptions{}.duration_s;
@@ -59,9 +60,17 @@ Result<void> check_belongs(const CLI::App& command, const std::string& form) {
     const char* forms;
   };
   constexpr Belongs kBelongs[] = {
-      {"--terms", "recorded"},  {"--window", "recorded"},          {"--plain", "recorded"},
-      {"--input", "piecewise"}, {"--intervals", "piecewise"},      {"--monotone", "piecewise"},
-      {"--slope", "piecewise"}, {"--duration", "error piecewise"}, {"--recording", "error piecewise"},
+      {"--terms", "recorded"},
+      {"--window", "recorded"},
+      {"--plain", "recorded"},
+      {"--drive", "recorded"},
+      {"--mass", "recorded"},
+      {"--input", "piecewise"},
+      {"--intervals", "piecewise"},
+      {"--monotone", "piecewise"},
+      {"--slope", "piecewise"},
+      {"--duration", "error piecewise"},
+      {"--recording", "error piecewise"},
   };
   for (const Belongs& one : kBelongs) {
     if (command.count(one.option) == 0 || std::string_view(one.forms).find(form) != std::string_view::npos)
@@ -91,6 +100,8 @@ Outcome run_recorded(const Options& options, const Session& session) {
   IdentifyOptions settings;
   settings.weak.window_s = options.window_s;
   settings.instruments = !options.plain;
+  if (options.force_scale.drive_N_per_V || options.force_scale.mass_kg)
+    settings.force_scale = options.force_scale;
   return finish(options, identify(session, *terms, settings));
 }
 
@@ -127,10 +138,9 @@ void add_identify(CLI::App& app, int& exit_status) {
       "  piecewise  gain, damping over equal intervals of one step, and its law of speed (Eq. 13-29, 67-71)\n"
       "Examples:\n"
       "  cartwright identify --session rig/monday --out model.toml\n"
-      "  cartwright identify --session emps --terms viscous_friction,coulomb_friction,constant_force --out "
-      "emps.toml\n"
-      "  cartwright identify --session rig/monday --form piecewise --recording step_kp60_1.csv --out "
-      "nl.toml\n"
+      "  cartwright identify --session rig/monday --terms viscous_friction,cogging --out model.toml\n"
+      "  cartwright identify --session emps --drive 35.15065 --out emps.toml\n"
+      "  cartwright identify --session rig/monday --form piecewise --recording step.csv --out nl.toml\n"
       "  cartwright identify --session rig/monday --form piecewise --intervals 30 --slope 60 --out nl.toml");
   auto options = std::make_shared<Options>();
   command->add_option("--session", options->session, "directory with session.toml")->required();
@@ -146,6 +156,18 @@ void add_identify(CLI::App& app, int& exit_status) {
       ->check(CLI::Range(5e-3, 10.0));
   command->add_flag("--plain", options->plain,
                     "recorded: least squares without instruments from a simulated twin");
+  CLI::Option* drive =
+      command
+          ->add_option("--drive", options->force_scale.drive_N_per_V,
+                       "recorded: force of the drive per volt [N/V]; prints mass and forces too")
+          ->check(kFinite)
+          ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--mass", options->force_scale.mass_kg,
+                   "recorded: moving mass [kg]; prints the drive's force per volt and forces too")
+      ->check(kFinite)
+      ->check(CLI::PositiveNumber)
+      ->excludes(drive);
   command->add_option("--recording", options->recording,
                       "error, piecewise: file of the step; the first PD step where absent");
   command->add_option("--duration", options->duration_s, "error, piecewise: time used, from the step on [s]")

@@ -27,6 +27,15 @@ std::string interval_of(const Estimate& estimate) {
   return estimate.has_interval() ? fmt::format("   [{:.6g}, {:.6g}]", estimate.low, estimate.high) : "";
 }
 
+void print_forces(const std::vector<ForceEstimate>& forces) {
+  if (forces.empty()) return;
+  fmt::print("\nas forces:\n");
+  for (const ForceEstimate& force : forces) {
+    fmt::print("{:<52} {:>12.6g}{}\n", force.name, force.estimate.value, interval_of(force.estimate));
+  }
+  fmt::print("\n");
+}
+
 void print_estimates(const std::vector<ParameterEstimate>& estimates) {
   for (const ParameterEstimate& found : estimates) {
     fmt::print("{:<52} {:>12.6g}{}{}\n", dotted_name(found.parameter), found.estimate.value,
@@ -38,6 +47,9 @@ void print_estimates(const std::vector<ParameterEstimate>& estimates) {
 
 void print_json(const Identification& result) {
   ordered_json document = document_of(result.estimates, result.not_separable);
+  for (const ForceEstimate& force : result.forces) {
+    document["forces"][force.name] = estimate_json(force.estimate);
+  }
   document["windows"] = result.windows;
   document["residual_rms_m_per_s2"] = number_json(result.residual_m_per_s2);
   document["acceleration_rms_m_per_s2"] = number_json(result.acceleration_m_per_s2);
@@ -65,6 +77,7 @@ void print_json(const StepIdentification& result) {
 
 void print_table(const Identification& result) {
   print_estimates(result.estimates);
+  print_forces(result.forces);
   if (!result.not_separable.empty()) {
     std::vector<std::string> names;
     for (const Parameter parameter : result.not_separable) names.push_back(dotted_name(parameter));

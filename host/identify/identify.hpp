@@ -4,6 +4,7 @@
 
 #include "common/model/model.hpp"
 #include "common/result.hpp"
+#include "host/identify/force_units.hpp"
 #include "host/identify/motion.hpp"
 #include "host/identify/regressors.hpp"
 #include "host/identify/weak_form.hpp"
@@ -15,8 +16,9 @@ namespace cartwright {
 struct IdentifyOptions {
   WeakFormOptions weak;
   MotionOptions motion;
-  bool instruments = true;  ///< use a simulated twin where the control law is known
-  int draws = 500;          ///< resamplings behind the intervals
+  bool instruments = true;                ///< use a simulated twin where the control law is known
+  int draws = 500;                        ///< resamplings behind the intervals
+  std::optional<ForceScale> force_scale;  ///< report forces as well
 };
 
 /// One number of the model; its interval is left open where the data gives none.
@@ -29,6 +31,7 @@ struct ParameterEstimate {
 struct Identification {
   Model model;
   std::vector<ParameterEstimate> estimates;
+  std::vector<ForceEstimate> forces;     ///< the same times the moving mass, where a scale is given
   std::vector<Parameter> not_separable;  ///< this data fixes these only in combination
   std::size_t windows = 0;               ///< equations
   double residual_m_per_s2 = 0;          ///< rms of what the model leaves of the weak acceleration

@@ -78,20 +78,30 @@ Model moved_model(const TermSet& terms, const Solution& solution, const VectorXd
   return terms.to_model(solution.theta + delta.head(size), shape);
 }
 
-/// Half widths of the intervals of all parameters, from one way of forming units.
-VectorXd half_widths(const TermSet& terms, const Solution& solution, const std::vector<ResampleUnit>& units,
-                     int draws) {
+/// A number that a model gives, and that wants an interval.
+struct Quantity {
+  Parameter parameter;
+  std::optional<ForceScale> scale;  ///< none: the parameter itself
+
+  double of(const Model& model) const {
+    return scale ? force_value(parameter, *scale, model) : model[parameter];
+  }
+  double away(const Model& there, const Model& here) const {
+    const double difference = of(there) - of(here);
+    if (parameter == Parameter::cogging_phase) return std::remainder(difference, 2 * std::numbers::pi);
+    return difference;
+  }
+};
+
+/// Half widths of the intervals of all quantities, from one way of forming units.
+VectorXd half_widths(const std::vector<Quantity>& quantities, const TermSet& terms, const Solution& solution,
+                     const std::vector<ResampleUnit>& units, int draws) {
   const MatrixXd deltas = resample(units, draws);
-  std::vector<std::vector<double>> values(terms.parameters().size());
+  std::vector<std::vector<double>> values(quantities.size());
   for (Index draw = 0; draw < deltas.rows(); ++draw) {
     const Model model = moved_model(terms, solution, deltas.row(draw).transpose());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      double away = model[terms.parameters()[i]] - solution.model[terms.parameters()[i]];
-      if (terms.parameters()[i] == Parameter::cogging_phase) {
-        away = std::remainder(away, 2 * std::numbers::pi);
-      }
-      values[i].push_back(away);
-    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i].push_back(quantities[i].away(model, solution.model));
   }
   VectorXd out(static_cast<Index>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -99,19 +109,17 @@ VectorXd half_widths(const TermSet& terms, const Solution& solution, const std::
   return out;
 }
 
-/// By how much the parameters move with windows half as long again, the shapes held.
-VectorXd window_shift(const Problem& problem, const TermSet& terms, const Linear& linear,
-                      const Solution& solution, const IdentifyOptions& options) {
+/// By how much the quantities move with windows half as long again, the shapes held.
+VectorXd window_shift(const std::vector<Quantity>& quantities, const Problem& problem, const TermSet& terms,
+                      const Linear& linear, const Solution& solution, const IdentifyOptions& options) {
   const Problem wider = problem.with_window(kWiderWindow * options.weak.window_s);
-  VectorXd out = VectorXd::Zero(static_cast<Index>(terms.parameters().size()));
+  VectorXd out = VectorXd::Zero(static_cast<Index>(quantities.size()));
   if (wider.windows() < 2 * terms.features().size()) return out;
   const Linear other = wider.least_squares(wider.all_columns(solution.model));
   const Model here = terms.to_model(linear.theta, solution.model);
   const Model there = terms.to_model(other.theta, solution.model);
   for (Index i = 0; i < out.size(); ++i) {
-    const Parameter parameter = terms.parameters()[static_cast<std::size_t>(i)];
-    double away = there[parameter] - here[parameter];
-    if (parameter == Parameter::cogging_phase) away = std::remainder(away, 2 * std::numbers::pi);
+    const double away = quantities[static_cast<std::size_t>(i)].away(there, here);
     if (std::isfinite(away)) out[i] = away;
   }
   return out;
@@ -141,16 +149,22 @@ void add_estimates(const Problem& problem, const TermSet& terms, const Linear& l
   const double block_s = std::max(2 * options.weak.window_s, std::min(kBlock_s, moving_s / 12));
   std::vector<ResampleUnit> units = blocks(problem, solution, block_s);
   out.units = units.size();
+  std::vector<Quantity> quantities;
+  for (const Parameter parameter : terms.parameters()) quantities.push_back({parameter, {}});
+  for (const Parameter parameter : terms.parameters()) {
+    if (options.force_scale && force_name(parameter, *options.force_scale))
+      quantities.push_back({parameter, options.force_scale});
+  }
   VectorXd widths;
   if (units.size() >= kFewestUnits) {
-    widths = half_widths(terms, solution, units, options.draws);
+    widths = half_widths(quantities, terms, solution, units, options.draws);
     units = whole_recordings(problem, solution);
     if (units.size() >= kFewestRecordings) {
-      widths = widths.cwiseMax(half_widths(terms, solution, units, options.draws));
+      widths = widths.cwiseMax(half_widths(quantities, terms, solution, units, options.draws));
     }
   }
   if (widths.size() > 0) {
-    const VectorXd shift = window_shift(problem, terms, linear, solution, options);
+    const VectorXd shift = window_shift(quantities, problem, terms, linear, solution, options);
     for (Index i = 0; i < widths.size(); ++i) widths[i] = std::hypot(widths[i], shift[i]);
   }
   for (std::size_t i = 0; i < terms.parameters().size(); ++i) {
@@ -170,6 +184,15 @@ void add_estimates(const Problem& problem, const TermSet& terms, const Linear& l
       found.estimate.high = std::min(known.upper, found.estimate.value + width);
     }
     out.estimates.push_back(found);
+  }
+  for (std::size_t i = terms.parameters().size(); i < quantities.size(); ++i) {
+    const Quantity& force = quantities[i];
+    const double value = force.of(solution.model);
+    const double width = widths.size() > 0 ? widths[static_cast<Index>(i)] : std::nan("");
+    const bool bounded = std::isfinite(width) && std::find(out.not_separable.begin(), out.not_separable.end(),
+                                                           force.parameter) == out.not_separable.end();
+    out.forces.push_back({*force_name(force.parameter, *force.scale),
+                          bounded ? Estimate::within(value, width) : Estimate{value}});
   }
 }
 

@@ -160,6 +160,17 @@ TEST_F(IdentifyCommand, TheTableHoldsTheSameNumbers) {
   }
 }
 
+TEST_F(IdentifyCommand, TheDriveGivesForcesInBothOutputs) {
+  const Words terms{"--terms", "viscous_friction", "--drive", "38"};
+  const json found = identify_json(terms);
+  const double mass_kg = found["forces"]["moving_mass_kg"]["value"].get<double>();
+  EXPECT_NEAR(mass_kg * value(found, "voltage_gain_m_per_s2_V"), 38, 1e-9);
+  EXPECT_NEAR(found["forces"]["viscous_friction.coefficient_N_s_per_m"]["value"].get<double>(),
+              mass_kg * value(found, "viscous_friction.coefficient_per_s"), 1e-6);
+  EXPECT_THAT(identify(terms).out, HasSubstr("moving_mass_kg"));
+  EXPECT_FALSE(identify_json({"--terms", "viscous_friction"}).contains("forces"));
+}
+
 TEST_F(IdentifyCommand, RefusesInOneLine) {
   expect_refused({"--form", "magic"}, "magic");
   expect_refused({"--terms", "viscous_friction,magic"}, "known are");
@@ -173,6 +184,9 @@ TEST_F(IdentifyCommand, RefusesInOneLine) {
   expect_refused({"--form", "piecewise", "--terms", "viscous_friction"},
                  "--terms belongs to --form recorded");
   expect_refused({"--form", "error", "--input", "voltage"}, "--input belongs to --form piecewise");
+  expect_refused({"--form", "error", "--drive", "35"}, "--drive belongs to --form recorded");
+  expect_refused({"--drive", "35", "--mass", "20"}, "--drive excludes --mass");
+  expect_refused({"--drive", "-1"}, "--drive");
   expect_refused({"--intervals", "6"}, "--intervals belongs to --form piecewise");
 }
 

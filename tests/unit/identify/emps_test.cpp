@@ -39,7 +39,9 @@ class Emps : public testing::Test {
   Identification identified() {
     const auto terms =
         TermSet::create({Term::viscous_friction, Term::coulomb_friction, Term::constant_force});
-    return *identify(imported({"DATA_EMPS.mat"}), *terms);
+    IdentifyOptions options;
+    options.force_scale = ForceScale{.drive_N_per_V = kDriveGain_N_per_V, .mass_kg = {}};
+    return *identify(imported({"DATA_EMPS.mat"}), *terms, options);
   }
 
   fs::path folder_;
@@ -47,12 +49,13 @@ class Emps : public testing::Test {
 
 TEST_F(Emps, IdentificationAgreesWithThePublishedValues) {
   const Identification result = identified();
-  const double mass_kg = kDriveGain_N_per_V / result.model[Parameter::voltage_gain];
-  EXPECT_NEAR(mass_kg, 95.109, 0.01 * 95.109);
-  EXPECT_NEAR(mass_kg * result.model[Parameter::viscous_coefficient], 203.50, 0.01 * 203.50);
-  EXPECT_NEAR(mass_kg * result.model[Parameter::coulomb_level], 20.394, 0.01 * 20.394);
+  ASSERT_EQ(result.forces.size(), 4u);
+  const auto force = [&result](std::size_t i) { return result.forces[i].estimate.value; };
+  EXPECT_NEAR(force(0), 95.109, 0.01 * 95.109);
+  EXPECT_NEAR(force(1), 203.50, 0.01 * 203.50);
+  EXPECT_NEAR(force(2), 20.394, 0.01 * 20.394);
   // Published on the side of friction: F = M a + Fv v + Fc sgn v + offset.
-  EXPECT_NEAR(-mass_kg * result.model[Parameter::constant_acceleration], -3.165, 0.05 * 3.165);
+  EXPECT_NEAR(-force(3), -3.165, 0.05 * 3.165);
 }
 
 TEST_F(Emps, PredictsTheRecordItWasNotFittedTo) {
