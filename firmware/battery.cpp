@@ -26,6 +26,7 @@ Step alternating(double amplitude_m) {
 Relay cycling(const RigFile& rig) {
   RelaySetup setup;
   setup.stop = false;
+  setup.start_m = relay_start_m(rig);
   setup.deadband_m = 3 * rig.rig.encoder_resolution_m;
   return Relay(setup);
 }
@@ -33,8 +34,7 @@ Relay cycling(const RigFile& rig) {
 }  // namespace
 
 Programme battery(const RigFile& rig) {
-  const double shorter_m = std::min(-rig.rig.travel_m[0], rig.rig.travel_m[1]) - rig.travel_margin_m;
-  const double scale = std::clamp(0.6 * shorter_m / 0.2, 0.0, 1.0);
+  const double scale = std::clamp(0.6 * shorter_travel_m(rig) / 0.2, 0.0, 1.0);
   // A limit cycle and a dither move the cart in proportion to their voltage.
   const double voltage = std::min(scale, rig.rig.voltage_limit_V / 12);
   const double period_s = rig.rig.period_s();

@@ -48,6 +48,7 @@ StepSetup step_setup(const Settings& s) {
 
 RelaySetup relay_setup(const Settings& s, const RigFile& rig) {
   RelaySetup setup;
+  setup.start_m = relay_start_m(rig);
   setup.settle_s = s[Id::relay_settle_s];
   setup.tolerance = s[Id::relay_tolerance];
   setup.cycles = s.integer(Id::relay_cycles);
@@ -76,6 +77,15 @@ Result<void> band(double low_hz, double high_hz, double rate_hz, std::string_vie
 
 FileName::FileName(std::string_view name) {
   std::copy_n(name.begin(), std::min(name.size(), text.size() - 1), text.begin());
+}
+
+double shorter_travel_m(const RigFile& rig) {
+  return std::min(-rig.rig.travel_m[0], rig.rig.travel_m[1]) - rig.travel_margin_m;
+}
+
+double relay_start_m(const RigFile& rig) {
+  constexpr double kPartOfTravel = 0.05;
+  return -kPartOfTravel * std::max(0.0, shorter_travel_m(rig));
 }
 
 Result<Programme> prepare(const Settings& s, const RigFile& rig) {

@@ -49,6 +49,13 @@ struct Programme {
   std::size_t count = 0;
 };
 
+/// What the travel, less its margin, leaves on the shorter side of zero; negative where zero is outside.
+double shorter_travel_m(const RigFile& rig);
+
+/// Where a relay test starts: to one side of zero by a twentieth of that. At zero itself the relays hold the
+/// cart in unstable balance, and the phase of the cycle that grows is settled within one encoder count.
+double relay_start_m(const RigFile& rig);
+
 /// The programme that the experiment registers describe. Fails, saying why, where numbers that are in range
 /// each do not fit together or do not fit the rig: a reference outside the travel, a sweep too fast for its
 /// length.

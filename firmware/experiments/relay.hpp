@@ -15,6 +15,7 @@ struct RelaySetup {
   int cycles = 4;           ///< in a row that must agree; as many are recorded again after that
   bool stop = true;         ///< end when converged, or when clearly not; else run for the whole duration
   double duration_s = 6;    ///< at the longest
+  double start_m = 0;       ///< where the cart stands when the relays take over
   double deadband_m =
       1e-4;  ///< a crossing counts once the cart has passed zero by this: encoder noise makes none
 };
@@ -31,7 +32,7 @@ class Relay {
 
   explicit Relay(const RelaySetup& setup = {}) : setup_(setup) {}
 
-  double start_m() const noexcept { return 0; }
+  double start_m() const noexcept { return setup_.start_m; }
   double duration_s() const noexcept { return setup_.duration_s; }
   bool converged() const noexcept { return converged_; }
   double period_s() const noexcept { return count_ > 0 ? period_s_[(count_ - 1) % kKept] : 0; }

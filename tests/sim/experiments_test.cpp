@@ -103,6 +103,21 @@ TEST(Experiments, TheDualRelayStopsByItselfOnTheCart) {
   EXPECT_EQ(rig.recording(0).law, wire::Law::dual_relay);
 }
 
+TEST(Experiments, ARelayTestStartsToOneSideSoThatItsPhaseIsNotLeftToOneCount) {
+  TestRig rig;
+  ASSERT_TRUE(rig.start(rig.one([](Settings& s) { s.set(Id::experiment_kind, 2); })));
+  ASSERT_TRUE(rig.finish());
+  const RigFile standard;
+  const double start_m = relay_start_m(standard);
+  EXPECT_LT(start_m, -0.01);
+  const std::vector<LogRow> rows = rig.rows_of(0);
+  EXPECT_NEAR(rows[0][column::y], start_m, -0.1 * start_m) << "as near as friction lets the approach come";
+  // Both relays push the same way until the cart is back at zero.
+  std::size_t first = 0;
+  while (rows[first][column::y] < -1e-4) EXPECT_EQ(rows[first++][column::u], rows[0][column::u]);
+  EXPECT_GT(first, 20u);
+}
+
 TEST(Experiments, AReferenceOutsideTheTravelIsRefused) {
   const RigFile rig;
   Settings settings;
