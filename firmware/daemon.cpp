@@ -202,8 +202,7 @@ Result<int> run(const Options& options, const RigFile& rig, const hal::Devices& 
     if (rig.kind != "simulated" && rig.require_realtime && !realtime.sufficient()) {
       return failure(
           "a real cart is not driven without SCHED_FIFO and locked memory; mend the above or write "
-          "require_realtime = "
-          "false in [rig]");
+          "require_realtime = false in [rig]");
     }
   }
   if (!options.once.empty()) return record_once(options, rig, *machine);

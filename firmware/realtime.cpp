@@ -40,9 +40,8 @@ Realtime prepare_process() {
   out.latency = latency >= 0 && ::write(latency, &none, sizeof none) == static_cast<ssize_t>(sizeof none);
   if (!out.latency) {
     out.missing.push_back(
-        fmt::format("/dev/cpu_dma_latency is not held ({}): waking from deep sleep may cost some 100 us; run "
-                    "as root or give the "
-                    "device to a group",
+        fmt::format("/dev/cpu_dma_latency is not held ({}): waking from deep sleep may cost some 100 us; "
+                    "run as root or give the device to a group",
                     std::strerror(errno)));
   }
   return out;

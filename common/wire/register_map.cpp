@@ -158,8 +158,7 @@ constexpr std::array<Register, kRegisterCount - kOnlineRegisters.size()> kFirst{
      "number of the command; write it together with command_code and command_argument"},
     {Id::command_code, "command_code", 401, Type::u16, 1, "", Access::command, 1, 10, 1,
      "1 arm, 2 disarm, 3 stop, 4 reset, 5 run, 6 store_gains, 7 activate_gains, 8 release, 9 "
-     "set_compensation, "
-     "10 restart_identification"},
+     "set_compensation, 10 restart_identification"},
     {Id::command_argument, "command_argument", 402, Type::u16, 1, "", Access::command, 0, 65535, 0,
      "slot for activate_gains, otherwise 0"},
     {Id::ack_sequence, "ack_sequence", 403, Type::u16, 1, "", Access::read, 0, 0, 0,

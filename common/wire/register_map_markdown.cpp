@@ -52,10 +52,9 @@ std::string register_map_markdown() {
   std::string text = fmt::format(
       "## Register map, version {}\n\n"
       "Addresses count from 0. Every register can be read with function 3 or 4; those marked `command` are "
-      "written "
-      "with function 6 or 16 by the one client that commands, those marked `select` by anyone for itself. A "
-      "value of "
-      "several registers has its most significant register first and is written whole.\n\n"
+      "written with function 6 or 16 by the one client that commands, those marked `select` by anyone for "
+      "itself. A value of several registers has its most significant register first and is written "
+      "whole.\n\n"
       "| address | registers | type | unit | access | range | initial | name | meaning |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
       kMapVersion);

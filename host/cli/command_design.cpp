@@ -68,16 +68,13 @@ Outcome run(const DesignOptions& options, const CLI::App& command) {
 void add_design(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("design", "Find gains with which a model meets a specification");
   command->footer(
-      "Tries gains all over the range with encoder, limit and filter as in the controller, on the model and "
-      "on carts\n"
-      "all over its intervals, and proposes those that keep a margin of every limit on all of them. Nothing "
-      "is applied:\n"
-      "the gain file is for `cartwright device gains flash`. Status 1: no gains meet it.\n"
+      "Tries gains all over the range with encoder, limit and filter as in the controller, on the\n"
+      "model and on carts all over its intervals, and proposes those that keep a margin of every\n"
+      "limit on all of them. Nothing is applied: the gain file is for `cartwright device gains flash`.\n"
+      "Status 1: no gains meet it.\n"
       "Examples:\n"
-      "  cartwright design --model model.toml --session rig/monday --settling-time 0.5 --overshoot 0.05 "
-      "--out gains.toml\n"
-      "  cartwright design --model model.toml --rig rig.toml --rise-time 0.2 --rms-voltage 2 --report "
-      "design.html\n"
+      "  cartwright design --model model.toml --session rig/monday --settling-time 0.5 --out gains.toml\n"
+      "  cartwright design --model model.toml --rig rig.toml --rise-time 0.2 --report design.html\n"
       "  cartwright design --model model.toml --law pid --settling-time 0.8\n"
       "  cartwright design --model lm3.toml --ideal --kp 100 --settling-time 0.5 --settling-band 0.01");
   auto options = std::make_shared<DesignOptions>();

@@ -140,13 +140,10 @@ Outcome run(const device::Address& address, const Options& options) {
 void add_device_compensation(CLI::App& device, int& exit_status) {
   CLI::App* command = device.add_subcommand("compensation", "Show or switch the compensation of friction");
   command->footer(
-      "Without MODE, --model and --set it shows what is active. The change happens between two ticks, "
-      "without a "
-      "bump,\n"
-      "also while an experiment runs. Model and settings stay with the controller until it ends; "
-      "[compensation] "
-      "in the\n"
-      "rig file holds them for longer. Terms of the model that have no inverse are left out, and named.\n\n"
+      "Without MODE, --model and --set it shows what is active. The change happens between two\n"
+      "ticks, without a bump, also while an experiment runs. Model and settings stay with the\n"
+      "controller until it ends; [compensation] in the rig file holds them for longer. Terms of\n"
+      "the model that have no inverse are left out, and named.\n\n"
       "Examples:\n"
       "  cartwright device compensation feedforward --model identified.toml\n"
       "  cartwright device compensation adaptive --set adaptive_kf1=10\n"

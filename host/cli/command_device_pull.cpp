@@ -51,9 +51,9 @@ void add_device_pull(CLI::App& device, int& exit_status) {
   CLI::App* command =
       device.add_subcommand("pull", "Fetch the recordings in the controller's log into a session");
   command->footer(
-      "Every page is checked against its checksum and asked for again if damaged; a broken connection is "
-      "made anew.\n"
-      "The directory appears whole or not at all. Losses are named, and show in t_s and missed_ticks.\n\n"
+      "Every page is checked against its checksum and asked for again if damaged; a broken\n"
+      "connection is made anew. The directory appears whole or not at all. Losses are named, and\n"
+      "show in t_s and missed_ticks.\n\n"
       "Examples:\n"
       "  cartwright device pull --out rig/monday\n"
       "  cartwright device pull --out rig/last --last 1");

@@ -76,9 +76,8 @@ void add_doctor(CLI::App& app, int& exit_status) {
   CLI::App* command =
       app.add_subcommand("doctor", "Check this machine for real-time control, and say what mends it");
   command->footer(
-      "Status 0: nothing is wrong. Status 1: something is, and the line below it is the command that mends "
-      "it.\n"
-      "What is absent is only needed by some rigs.\n\n"
+      "Status 0: nothing is wrong. Status 1: something is, and the line below it is the command\n"
+      "that mends it. What is absent is only needed by some rigs.\n\n"
       "Examples:\n"
       "  cartwright doctor\n"
       "  cartwright doctor --json");

@@ -92,9 +92,8 @@ void add_evaluate(CLI::App& app, int& exit_status) {
   CLI::App* command =
       app.add_subcommand("evaluate", "How well a model predicts a session: closed loop, windows, open loop");
   command->footer(
-      "Writes NAME.prediction.csv for every recording, with columns t_s, y_m, y_closed_loop_m, y_window_m "
-      "and\n"
-      "y_open_loop_m, and prints the rms errors:\n"
+      "Writes NAME.prediction.csv for every recording, with columns t_s, y_m, y_closed_loop_m,\n"
+      "y_window_m and y_open_loop_m, and prints the rms errors:\n"
       "  closed loop  the recorded controller and reference, run on the model\n"
       "  windows      the recorded voltage over windows of 0.5 s, each from its own fitted start state\n"
       "  open loop    the recorded voltage from the start, start state from the first 20 rows\n"

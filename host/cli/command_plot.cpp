@@ -79,9 +79,8 @@ void add_plot(CLI::App& app, int& exit_status) {
       "Examples:\n"
       "  cartwright plot rig/monday\n"
       "  cartwright plot rig/monday --model nominal.toml --out monday.html\n"
-      "With a model, its prediction is drawn over every recording. The page needs no other file; drag in a "
-      "plot to\n"
-      "zoom, double-click to see everything again.");
+      "With a model, its prediction is drawn over every recording. The page needs no other file;\n"
+      "drag in a plot to zoom, double-click to see everything again.");
   auto options = std::make_shared<Options>();
   command->add_option("session,--session", options->session, "directory with session.toml")->required();
   command->add_option("--model", options->model, "model file (TOML) to draw over the recordings");

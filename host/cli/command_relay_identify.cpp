@@ -74,8 +74,7 @@ void print_text(const RelayReport& report) {
     }
     fmt::print(
         "  {:<20} h1 {:.3g} V, h2 {:.3g} V: amplitude {:.5g} m, {:.5g} Hz, offset {:.2g} m, settled at "
-        "{:.2f} s, "
-        "{} cycles, match leaves {:.2g} m rms\n",
+        "{:.2f} s, {} cycles, match leaves {:.2g} m rms\n",
         e.file, e.gains.h1_V, e.gains.h2_V, e.cycle->sine.amplitude.value, e.cycle->sine.frequency_hz.value,
         e.cycle->sine.offset.value, e.cycle->settled_s, e.cycle->cycles.size(), e.rms_m);
   }
@@ -118,9 +117,8 @@ void add_relay_identify(CLI::App& app, int& exit_status) {
   command->footer(
       "Example:\n"
       "  cartwright relay-identify --session rig/monday\n"
-      "All recordings whose controller is a dual relay are used together; one whose limit cycle dies out, "
-      "sticks,\n"
-      "drifts or has not converged is left out and the reason given.");
+      "All recordings whose controller is a dual relay are used together; one whose limit cycle\n"
+      "dies out, sticks, drifts or has not converged is left out and the reason given.");
   auto options = std::make_shared<Options>();
   command->add_option("--session", options->session, "directory with session.toml")->required();
   command->add_flag("--json", options->json, "one JSON object on standard output");

@@ -88,9 +88,8 @@ void add_report(CLI::App& app, int& exit_status) {
       "  cartwright report rig/monday --out monday.html\n"
       "  cartwright report rig/monday rig/monday-gains --out monday.html\n"
       "  cartwright report rig/monday --model yesterday=sunday.toml --truth cart.toml\n"
-      "Models given here are shown beside the ones identified from the session; --truth, what a simulated "
-      "cart was\n"
-      "made of, stands in the tables as the true value.");
+      "Models given here are shown beside the ones identified from the session; --truth, what a\n"
+      "simulated cart was made of, stands in the tables as the true value.");
   auto options = std::make_shared<Options>();
   command->add_option("session,--session", options->sessions, "directories with session.toml, of one rig")
       ->required();

@@ -11,8 +11,7 @@ int main(int argc, char** argv) {
   app.footer(
       "Examples:\n"
       "  cartwright device run battery --out rig/monday\n"
-      "  cartwright identify --session rig/monday --terms viscous_friction,coulomb_friction --out "
-      "model.toml\n"
+      "  cartwright identify --session rig/monday --out model.toml\n"
       "  cartwright evaluate --model model.toml --session rig/monday --out rig/monday-predicted\n"
       "  cartwright doctor\n"
       "cartwright COMMAND --help says more.");

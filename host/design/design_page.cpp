@@ -40,8 +40,7 @@ void verdict(Report& page, const DesignPage& c) {
         d.has_margin && d.may_change ? Tone::good : Tone::attention,
         "Proposed: " + gains_text(d.gains, c.integral) + ".",
         fmt::format("Met by all {} carts tried; {:.0f} % of the tightest limit, {}, is left in the worst "
-                    "case. With both "
-                    "gains {:.0f} % off it {}. Nothing has been applied.",
+                    "case. With both gains {:.0f} % off it {}. Nothing has been applied.",
                     c.trials.scenarios.size(), 100 * d.worst.slack, info(*d.worst.binding).words,
                     100 * c.search.gain_change, d.may_change ? "still holds" : "does not always hold"));
     return;
@@ -215,8 +214,7 @@ void carts_section(Report& page, const DesignPage& c) {
   page.section("The carts it was tried on");
   page.paragraph(fmt::format(
       "{} carts: the model, corners of the box its intervals span, the ends of every interval, and points "
-      "within{}. {} of "
-      "them were tried all over the map.",
+      "within{}. {} of them were tried all over the map.",
       c.trials.scenarios.size(),
       c.trials.scenarios.front().model.has(Term::motor_heating) ? ", cold and warm" : "", c.trials.mapped));
   if (c.intervals.empty()) return;

@@ -76,8 +76,8 @@ void compare(Section& section, report::Plot& plot, const std::string& figure, Ga
   section.items.push_back({figure + ", non-linear model", published_nonlinear,
                            text(of_nonlinear.y_m) + "; real loop " + text(real_nonlinear),
                            "rise from 10 to 90 % of the reference; the paper does not say between which "
-                           "levels, and the last part "
-                           "of the way is where a cart with more damping at low speed takes its time"});
+                           "levels, and the last part of the way is where a cart with more damping at low "
+                           "speed takes its time"});
   draw(plot, "linear model", of_linear.y_m, report::Colour::other_model, false);
   draw(plot, "non-linear model", of_nonlinear.y_m, report::Colour::model, false);
   draw(plot, "linear, real loop", real_linear, report::Colour::other_model, true);

@@ -265,8 +265,7 @@ Result<Section> identified_carts(const ReproduceOptions& options) {
                      plus_minus(d.gamma_free), plus_minus(d.beta_free),
                      percent(d.beta_free.mean(), published.beta_m_per_s2_V)),
          "the published values are the simulated cart's own: what is off is the method's, six constant "
-         "values "
-         "and mean speeds for a law; " +
+         "values and mean speeds for a law; " +
              off(d.first_free)});
     section.items.push_back(
         {fmt::format("{}, Kp = {:g}: the same with Eq. (65), d = 0.5", published.equation,
@@ -275,8 +274,8 @@ Result<Section> identified_carts(const ReproduceOptions& options) {
          fmt::format("{}, {}, {}, {} ({})", plus_minus(d.alpha1), plus_minus(d.alpha2), plus_minus(d.gamma),
                      plus_minus(d.beta), percent(d.beta.mean(), published.beta_m_per_s2_V)),
          (published.kp_V_per_m > 60
-              ? "this cart still swings fast late in the response, where Eq. (65) asks for "
-                "the greatest damping; "
+              ? "this cart still swings fast late in the response, where Eq. (65) asks for the greatest "
+                "damping; "
               : "") +
              off(d.first) + (d.without_law > 0 ? fmt::format("; {} draws gave no law", d.without_law) : "")});
     section.plots.push_back(damping_over_time(d, published.kp_V_per_m));

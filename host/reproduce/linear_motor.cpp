@@ -163,14 +163,12 @@ Result<Section> adaptive_starts(const ReproduceOptions& /*options*/) {
          : &start == &kStarts[1] ? "smaller error, faster"
                                  : "the best of the three",
          fmt::format("rms error {:.3g} mm in the first 2 s, {:.3g} mm in the last 2 of 10; ends at a - f2 = "
-                     "{:.3g}, b = "
-                     "{:.3g}, f1 = {:.3g}",
+                     "{:.3g}, b = {:.3g}, f1 = {:.3g}",
                      std::sqrt(early / static_cast<double>(early_rows)),
                      std::sqrt(late / static_cast<double>(late_rows)), result.last[E::a] - result.last[E::f2],
                      result.last[E::b], result.last[E::f1]),
-         "f2 |x'| of Eq. (24), (30) is even in the direction; with x' in its place, as Eq. (13) asks, only a "
-         "- "
-         "f2 has a true value: -20.5"});
+         "f2 |x'| of Eq. (24), (30) is even in the direction; with x' in its place, as Eq. (13) asks, "
+         "only a - f2 has a true value: -20.5"});
   }
   const TrackingResult printed = track(start_setup(kStarts[2], true));
   section.items.push_back(

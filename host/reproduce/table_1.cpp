@@ -28,9 +28,8 @@ std::string why(std::size_t row) {
   if (row == 0) return "the simulated cart is the model fitted to this response, not the cart";
   if (row == 1) {
     return "the derivative's kick at the step meets the 12 V limit, which Eq. (62) does not have; the mean "
-           "is Kp "
-           "times the mean error, and the measured cart sticks short of the reference where this one creeps "
-           "on";
+           "is Kp times the mean error, and the measured cart sticks short of the reference where this one "
+           "creeps on";
   }
   return kGainPairs[row].kd_V_s_per_m > 0 ? "as for Kp 60, Kd 5" : "as for Kp 60, Kd 0";
 }

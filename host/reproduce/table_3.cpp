@@ -237,9 +237,8 @@ Result<Section> against_regression(const ReproduceOptions& options) {
     options.progress(0.3 + 0.7 * static_cast<double>(i + 1) / static_cast<double>(kWays.size()));
   }
   table.note =
-      "Wall clock, medians, one thread. Random starts: damping and gain each over three decades, 0.1 to 100. "
-      "The "
-      "integral method has no start.";
+      "Wall clock, medians, one thread. Random starts: damping and gain each over three decades, 0.1 to "
+      "100. The integral method has no start.";
   section.items.push_back(
       {"integral method, constant and six values", "0.001 s, 0.007 s",
        fmt::format("{:.1f} us, {:.1f} us", 1e6 * integral.constant_s, 1e6 * integral.six_s),
@@ -288,11 +287,9 @@ Result<Section> against_regression(const ReproduceOptions& options) {
                    of_six.rms_m <= kFailed * best_six ? "met" : "missed"),
        fmt::format(
            "against the fastest integration from a start that is already good: with steps as long as the "
-           "samples "
-           "and exact derivatives it costs no more than the analytical form, {:.0f} us an evaluation of {}, "
-           "{:.0f} % of its time; the rest is the solver's. With the fit that finds that start: x {:.0f}, "
-           "with "
-           "adaptive steps x {:.0f}",
+           "samples and exact derivatives it costs no more than the analytical form, {:.0f} us an "
+           "evaluation of {}, {:.0f} % of its time; the rest is the solver's. With the fit that finds that "
+           "start: x {:.0f}, with adaptive steps x {:.0f}",
            1e6 * ways[1].near_s * ways[1].near.evaluation_share / ways[1].near.evaluations,
            ways[1].near.evaluations, 100 * ways[1].near.evaluation_share,
            (ways[1].linear_s + ways[1].near_s) / integral.six_s,

@@ -81,14 +81,11 @@ std::string model_page() {
                             gain.key))
       .paragraph(
           "d2y/dt2 = beta u - sum(opposing terms) + sum(pushes), with position y in m, voltage u in V and "
-          "beta "
-          "the voltage gain. Every term is an acceleration: force divided by the moving mass. Friction, "
-          "damping, "
-          "drag and spring oppose; constant force, cogging and disturbance push.")
+          "beta the voltage gain. Every term is an acceleration: force divided by the moving mass. "
+          "Friction, damping, drag and spring oppose; constant force, cogging and disturbance push.")
       .paragraph(
           "From command to force the order is: dead zone, saturation, gain asymmetry, delay, lag, current "
-          "limit. "
-          "Friction holds the cart exactly still up to its level.");
+          "limit. Friction holds the cart exactly still up to its level.");
   page.section("TERMS");
   for (const TermInfo& term : terms()) {
     page.subsection(fmt::format("[model.{}]", term.name)).paragraph(term.meaning);
@@ -120,8 +117,7 @@ std::string session_page() {
   page.section("DESCRIPTION")
       .paragraph(
           "session.toml and the CSV files it names, one for each recording. SI units; the unit is the last "
-          "part "
-          "of a name. Positive voltage drives towards positive y.")
+          "part of a name. Positive voltage drives towards positive y.")
       .verbatim(
           "[rig]\n"
           "name = \"cart\"\n"
@@ -149,22 +145,18 @@ std::string session_page() {
       .paragraph("At tick k, Ts = 1/sample_rate_hz, e = r - y.")
       .item("pd",
             "ef += (1 - exp(-2 pi f Ts)) ((e - e_prev)/Ts - ef), u = clip(kp e + kd ef + d_V, "
-            "+-voltage_limit); "
-            "e_prev = e at the first tick. With derivative_on = \"measurement\" (default \"error\") -y takes "
-            "the "
-            "place of e in the derivative.")
+            "+-voltage_limit); e_prev = e at the first tick. With derivative_on = \"measurement\" (default "
+            "\"error\") -y takes the place of e in the derivative.")
       .item("pid",
             "pd with ki_V_per_m_s times the running sum of e Ts, including this tick, added to the voltage; "
-            "the "
-            "sum stands still while the limit acts and e would drive further beyond it.")
+            "the sum stands still while the limit acts and e would drive further beyond it.")
       .item("dual_relay",
             "u = clip(h1 sgn(e) + h2 sgn(I) + d_V), I the running sum of e Ts including this tick, "
             "sgn(0) = +1. hysteresis_m (0) makes the first relay change over only that far past zero.");
   page.section("CSV")
       .paragraph(
-          "A header line, then one row for each controller tick. Columns by name, in any order; unknown ones "
-          "are "
-          "kept; an empty cell is missing.")
+          "A header line, then one row for each controller tick. Columns by name, in any order; unknown "
+          "ones are kept; an empty cell is missing.")
       .item("t_s", "time, strictly increasing; real time stamps, which jitter and may have gaps")
       .item("y_m", "position, read at the row's own t_s")
       .item("u_V", "command after the limit, held until the next row")
@@ -174,14 +166,12 @@ std::string session_page() {
       .item("truth_*", "what only a simulation knows")
       .paragraph(
           "Written files have comma and point, LF, UTF-8 without byte-order mark and shortest round-trip "
-          "numbers. "
-          "Reading also takes a byte-order mark, CRLF, quotes, semicolons or tabs, and then a decimal "
-          "comma.");
+          "numbers. Reading also takes a byte-order mark, CRLF, quotes, semicolons or tabs, and then a "
+          "decimal comma.");
   page.section("IMPORT MAP")
       .paragraph(
           "cartwright import FILE --map MAP.toml --out DIR turns MATLAB or CSV files into a session. "
-          "[channels] "
-          "has a line for each column; [rig] and [controller] are as above.")
+          "[channels] has a line for each column; [rig] and [controller] are as above.")
       .verbatim("[channels]\ny_m = \"qm\"\nu_V = { channel = \"vir\", scale = 1.0, offset = 0.0 }");
   page.see_also("cartwright(1), cartwright-model(5)");
   return page.text();

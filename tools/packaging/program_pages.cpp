@@ -62,10 +62,8 @@ std::string program_page(const std::string& program) {
             "unusable input: one line on standard error says where, what is wrong and what would be right");
   page.paragraph(
       "With --json a command prints one JSON object on standard output and nothing else there. Every "
-      "estimated "
-      "number is {\"value\": v, \"low\": a, \"high\": b}, a 95 % interval with null where the data gives no "
-      "bound. "
-      "Progress goes to standard error, and only to a terminal.");
+      "estimated number is {\"value\": v, \"low\": a, \"high\": b}, a 95 % interval with null where the "
+      "data gives no bound. Progress goes to standard error, and only to a terminal.");
   page.section("COMMANDS");
   describe(page, program, "");
   page.see_also("cartwrightd(8), cartwright-session(5), cartwright-model(5), cartwright-registers(5)");
@@ -78,10 +76,8 @@ std::string daemon_page(const std::string& program) {
   page.section("DESCRIPTION")
       .paragraph(
           "Runs the control loop at a fixed rate and serves it over Modbus TCP. One client may command at a "
-          "time, "
-          "others may read; cartwright device is one such client. A fault puts zero volts out within the "
-          "same tick, "
-          "stays until it is reset, freezes the log and says in words what happened.")
+          "time, others may read; cartwright device is one such client. A fault puts zero volts out within "
+          "the same tick, stays until it is reset, freezes the log and says in words what happened.")
       .verbatim(help_of(program));
   page.section("RIG FILE")
       .paragraph(

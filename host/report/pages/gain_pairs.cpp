@@ -122,8 +122,7 @@ void add_gain_pairs(Report& page, const Session& session, const std::vector<Name
   page.section("Prediction of every gain pair");
   page.paragraph(
       "Each model is run with the controller and the reference of the recording; nothing of the recorded "
-      "motion goes "
-      "in but where it starts.");
+      "motion goes in but where it starts.");
   page.plots(plots, 3);
   Table table;
   table.caption = "Mean absolute error after the step";

@@ -117,14 +117,11 @@ Table cart_table(const RelayReport& relay, const std::optional<Model>& truth) {
   }
   table.note =
       "In the words of the relay paper: G(s) = Kp/(s (Tp s + 1)), friction (f1 + f2 |v|) sgn v in volts; f2 "
-      "and "
-      "1/Kp enter only as their sum.";
+      "and 1/Kp enter only as their sum.";
   if (exact && std::isnan(exact->f1_V)) {
     table.note +=
-        " The true cart has other friction than Coulomb and viscous, so the last two have no true value; the "
-        "curves "
-        "of "
-        "friction against speed compare it.";
+        " The true cart has other friction than Coulomb and viscous, so the last two have no true value; "
+        "the curves of friction against speed compare it.";
   }
   return table;
 }
