@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "tests/blind/benchmark_page.hpp"
 #include "tests/blind/saved.hpp"
 #include "tests/blind/summary.hpp"
 
@@ -21,7 +22,7 @@ struct Options {
   unsigned jobs = 2;
   std::vector<std::string> only;
   bool baselines = false;
-  std::string write, save;
+  std::string write, save, report;
 };
 
 std::vector<Case> cases_of(const Options& options) {
@@ -131,6 +132,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", options.only, "only these effects");
   app.add_flag("--baselines", options.baselines, "put the same sessions to the baselines as well");
   app.add_option("--save", options.save, "add each outcome to this file, and skip the cases it holds");
+  app.add_option("--report", options.report, "make a page of the outcomes, those of the file included");
   app.add_option("--write", options.write, "write the sessions there, with their truth, and ask nothing");
   CLI11_PARSE(app, argc, argv);
   const std::vector<Case> cases = cases_of(options);
@@ -141,4 +143,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   fmt::print("{}", summary(*outcomes));
+  if (options.report.empty()) return 0;
+  if (const auto written = benchmark_page(*outcomes).write(options.report); !written) {
+    fmt::print(stderr, "blind_proof: {}\n", written.error().message);
+    return 2;
+  }
 }

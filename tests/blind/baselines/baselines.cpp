@@ -17,4 +17,15 @@ std::map<std::string, Names> ask_baselines(const Session& session, const Model& 
           {"single split", single_split(session, nominal)}};
 }
 
+std::vector<std::string> baseline_descriptions() {
+  return {
+      "most gain: the term that gains most likelihood over the refitted nominal model, whatever it gains; it "
+      "names one and never refuses",
+      "BIC: the same fits, a term added while the Bayesian information criterion falls, every row counted as "
+      "independent; at most two",
+      "BIC of windows: the same criterion on errors of simulated 0.5 s windows",
+      "single split: fitted to every other recording, the term with the least window error on the rest",
+  };
+}
+
 }  // namespace cartwright::blind

@@ -12,4 +12,7 @@ namespace cartwright::blind {
 /// diagnosis, on the recordings it used.
 std::map<std::string, Names> ask_baselines(const Session& session, const Model& nominal, const Diagnosis& d);
 
+/// What each of them does, a sentence each, for a report.
+std::vector<std::string> baseline_descriptions();
+
 }  // namespace cartwright::blind
