@@ -138,7 +138,8 @@ Result<int> record_once(const Options& options, const RigFile& rig, Machine& mac
   if (stop_requested) return failure("stopped before the experiment was over; nothing was written");
   const auto written = write_session(rig, machine.exchange, options.out);
   if (!written) return tl::unexpected(written.error());
-  std::fprintf(stderr, "cartwrightd: %u recordings in %s, %s\n", status.recordings, options.out.c_str(),
+  std::fprintf(stderr, "cartwrightd: %u %s in %s, %s\n", status.recordings,
+               status.recordings == 1 ? "recording" : "recordings", options.out.c_str(),
                std::string(wire::words(status.outcome)).c_str());
   if (status.notice != wire::Notice::none) {
     std::fprintf(stderr, "cartwrightd: notice at %s\n", notice_sentence(status).c_str());

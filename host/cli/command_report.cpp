@@ -20,11 +20,14 @@ struct Options {
 Result<report::NamedModel> read_named(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string file = equals == std::string::npos ? text : text.substr(equals + 1);
-  const auto model = read_model(file);
-  if (!model) return tl::unexpected(model.error());
-  return report::NamedModel{
-      equals == std::string::npos ? std::filesystem::path(file).stem().string() : text.substr(0, equals),
-      *model};
+  const auto read = read_model_with_intervals(file);
+  if (!read) return tl::unexpected(read.error());
+  report::NamedModel out;
+  out.name =
+      equals == std::string::npos ? std::filesystem::path(file).stem().string() : text.substr(0, equals);
+  out.model = read->model;
+  out.intervals = read->intervals;
+  return out;
 }
 
 std::string folder_name(const std::string& directory) {

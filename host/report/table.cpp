@@ -36,12 +36,15 @@ const char* tone_class(Tone tone) {
   return "";
 }
 
-std::string cell_html(const Cell& cell, const ColumnShape& shape) {
+std::string cell_html(const Cell& cell, const ColumnShape& shape, bool interval_below) {
   std::string classes = shape.numeric ? "n" : "t";
   classes += tone_class(cell.tone);
   if (cell.strong) classes += " strong";
-  std::string out = "<td class=\"" + classes + "\">" + escape(cell.text) + "</td>";
-  if (shape.intervals) out += "<td class=\"i\">" + escape(cell.interval) + "</td>";
+  std::string out = "<td class=\"" + classes + "\">" + escape(cell.text);
+  if (interval_below && !cell.interval.empty())
+    out += "<span class=\"below\">" + escape(cell.interval) + "</span>";
+  out += "</td>";
+  if (shape.intervals && !interval_below) out += "<td class=\"i\">" + escape(cell.interval) + "</td>";
   return out;
 }
 
@@ -75,7 +78,7 @@ std::string to_html(const Table& table) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     out += "<th scope=\"col\"";
     if (columns[i].numeric) out += " class=\"n\"";
-    if (columns[i].intervals) out += " colspan=\"2\"";
+    if (columns[i].intervals && !table.intervals_below) out += " colspan=\"2\"";
     out += ">" + escape(table.columns[i].heading);
     if (!table.columns[i].unit.empty())
       out += "<span class=\"unit\">" + escape(table.columns[i].unit) + "</span>";
@@ -85,7 +88,7 @@ std::string to_html(const Table& table) {
   for (const auto& row : table.rows) {
     out += "<tr>";
     for (std::size_t i = 0; i < columns.size(); ++i)
-      out += cell_html(i < row.size() ? row[i] : Cell{}, columns[i]);
+      out += cell_html(i < row.size() ? row[i] : Cell{}, columns[i], table.intervals_below);
     out += "</tr>\n";
   }
   out += "</tbody></table></div>";

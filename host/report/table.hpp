@@ -12,7 +12,7 @@ enum class Tone { plain, good, attention, bad };
 
 struct Cell {
   std::string text;
-  std::string interval;  ///< shown beside the text, in a narrower column of its own
+  std::string interval;  ///< shown beside the text in a narrower column, or below it
   bool numeric = false;
   Tone tone = Tone::plain;
   bool strong = false;
@@ -47,6 +47,7 @@ struct Table {
   std::vector<Column> columns{};
   std::vector<std::vector<Cell>> rows{};
   std::string note{};
+  bool intervals_below = false;  ///< below the numbers, where many columns have them
 
   Table& row(std::vector<Cell> cells) {
     rows.push_back(std::move(cells));

@@ -6,6 +6,7 @@
 #include "host/report/pages/gain_pairs.hpp"
 #include "host/report/pages/identification_page.hpp"
 #include "host/report/pages/parameters.hpp"
+#include "host/report/pages/summary.hpp"
 #include "host/report/unit.hpp"
 
 namespace cartwright::report {
@@ -83,7 +84,7 @@ TEST(StepDamping, ThePageShowsItOrSaysWhyNot) {
   Session session = two_pairs_and_a_repeat();
   const auto page_of = [&session] { return identification_page({session, {}, {}, "test"}).to_html(); };
   const std::string with = page_of();
-  for (const char* part : {"Law: C(v) =", "identified, one step, six intervals", "Against speed"})
+  for (const char* part : {"Law: C(v) =", "one step, six intervals", "Against speed"})
     EXPECT_NE(with.find(part), std::string::npos) << part;
   for (Recording& recording : session.recordings) recording.experiment = "track";
   const std::string without = page_of();
@@ -95,11 +96,27 @@ TEST(ParametersTable, HasARowForWhateverAnyColumnHoldsAndADashWhereOneSaysNothin
   const Table table = parameters_table(
       "", {column_of("a", cart_with_exponential_damping()), column_of("b", cart_with_viscous_friction())});
   ASSERT_EQ(table.rows.size(), 5u);
-  EXPECT_EQ(table.rows[0][2].text, "1.917");
+  EXPECT_EQ(table.rows[0][2].text, "1.9165");
   EXPECT_EQ(table.rows[1][0].text, "viscous friction, coefficient");
   EXPECT_EQ(table.rows[1][1].text, "1/s");
   EXPECT_EQ(table.rows[1][2].text, "–");
   EXPECT_EQ(table.rows[1][3].text, "6.152");
+}
+
+TEST(ParametersTable, ShowsTheIntervalsThatAModelHas) {
+  NamedModel model{"a", cart_with_viscous_friction()};
+  model.intervals = {{Parameter::viscous_coefficient, 6.1, 6.2}};
+  const Table table = parameters_table("", {column_of(model)});
+  EXPECT_EQ(table.rows[0][2].interval, "");
+  EXPECT_NE(table.rows[1][2].interval.find("6.1"), std::string::npos);
+}
+
+TEST(Summary, DistanceFromTheTruthIsThatOfTheFarthestNumberOfTheSameTerms) {
+  Model near = cart_with_exponential_damping();
+  near.set(Parameter::exponential_gamma, 1.02 * near[Parameter::exponential_gamma]);
+  EXPECT_EQ(farthest_from(cart_with_exponential_damping(), cart_with_exponential_damping()), 0.0);
+  EXPECT_NEAR(farthest_from(cart_with_exponential_damping(), near).value(), 0.02, 1e-12);
+  EXPECT_EQ(farthest_from(cart_with_exponential_damping(), cart_with_viscous_friction()), std::nullopt);
 }
 
 TEST(Unit, EveryNumberOfTheVocabularyIsShownWithoutUnderscores) {
@@ -117,8 +134,8 @@ TEST(IdentificationPage, TheSameSessionGivesTheSameBytes) {
                                    "test"};
   const std::string page = identification_page(content).to_html();
   EXPECT_TRUE(page == identification_page(content).to_html());
-  for (const char* part :
-       {"Kp 60 V/m, Kd 0 V s/m", "Kp 80 V/m, Kd 5 V s/m", "repeat.csv", "exponential damping"}) {
+  for (const char* part : {"In short", "a file given to the report", "Kp 60 V/m, Kd 0 V s/m",
+                           "Kp 80 V/m, Kd 5 V s/m", "repeat.csv", "exponential damping"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
 }

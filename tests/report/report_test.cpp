@@ -22,6 +22,18 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
+TEST(Table, IntervalsStandBesideTheirNumbersOrBelowThem) {
+  Table table;
+  table.columns = {{"value"}};
+  table.row({Cell(Estimate{2, 1.9, 2.1})});
+  const std::string beside = to_html(table);
+  table.intervals_below = true;
+  const std::string below = to_html(table);
+  EXPECT_NE(beside.find("colspan=\"2\""), std::string::npos);
+  EXPECT_EQ(below.find("colspan"), std::string::npos);
+  EXPECT_NE(below.find("<span class=\"below\">["), std::string::npos);
+}
+
 TEST(ReportNumber, ShowsTwoDigitsOfTheHalfWidthAndNoMore) {
   const FormattedEstimate shown = format_estimate({1.91304, 1.90812, 1.91797});
   EXPECT_EQ(shown.value, "1.9130");

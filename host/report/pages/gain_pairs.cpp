@@ -101,6 +101,29 @@ Compared compare(const Session& session, const Recording& recording, const std::
   return out;
 }
 
+Table error_table(std::string caption, const std::vector<NamedModel>& models,
+                  const std::vector<GainPairError>& errors, std::vector<double> GainPairError::*over_m) {
+  Table table;
+  table.caption = std::move(caption);
+  table.columns = {{"Kp", "V/m"}, {"Kd", "V s/m"}};
+  for (const NamedModel& one : models) table.columns.push_back({one.name, "mm"});
+  std::vector<double> sums_mm(models.size());
+  for (const GainPairError& one : errors) {
+    std::vector<Cell> cells{gain(one.kp_V_per_m), gain(one.kd_V_s_per_m)};
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      const double error_mm = 1e3 * (one.*over_m)[m];
+      cells.push_back(Cell::number(error_mm, 3));
+      sums_mm[m] += error_mm;
+    }
+    table.row(std::move(cells));
+  }
+  std::vector<Cell> means{Cell("average").emphasise(), Cell("")};
+  for (const double sum_mm : sums_mm)
+    means.push_back(Cell::number(sum_mm / static_cast<double>(errors.size()), 3).emphasise());
+  table.row(std::move(means));
+  return table;
+}
+
 }  // namespace
 
 std::vector<GainPairError> gain_pair_errors(const Session& session, const std::vector<NamedModel>& models) {
@@ -124,29 +147,9 @@ void add_gain_pairs(Report& page, const Session& session, const std::vector<Name
       "Each model is run with the controller and the reference of the recording; nothing of the recorded "
       "motion goes in but where it starts.");
   page.plots(plots, 3);
-  Table table;
-  table.caption = "Mean absolute error after the step";
-  table.columns = {{"Kp", "V/m"}, {"Kd", "V s/m"}};
-  for (const NamedModel& one : models) {
-    table.columns.push_back({one.name + ", 1 s", "mm"});
-    table.columns.push_back({one.name + ", 0.5 s", "mm"});
-  }
-  std::vector<double> sums(2 * models.size());
-  for (const GainPairError& one : errors) {
-    std::vector<Cell> cells{gain(one.kp_V_per_m), gain(one.kd_V_s_per_m)};
-    for (std::size_t m = 0; m < models.size(); ++m) {
-      cells.push_back(Cell::number(1e3 * one.over_1_s_m[m], 3));
-      cells.push_back(Cell::number(1e3 * one.over_half_s_m[m], 3));
-      sums[2 * m] += 1e3 * one.over_1_s_m[m];
-      sums[2 * m + 1] += 1e3 * one.over_half_s_m[m];
-    }
-    table.row(std::move(cells));
-  }
-  std::vector<Cell> means{Cell("average").emphasise(), Cell("")};
-  for (const double sum : sums)
-    means.push_back(Cell::number(sum / static_cast<double>(errors.size()), 3).emphasise());
-  table.row(std::move(means));
-  page.table(table);
+  page.table(
+      error_table("Mean absolute error over 1 s after the step", models, errors, &GainPairError::over_1_s_m));
+  page.table(error_table("Over 0.5 s", models, errors, &GainPairError::over_half_s_m));
 }
 
 }  // namespace cartwright::report

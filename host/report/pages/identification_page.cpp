@@ -11,12 +11,16 @@
 #include "host/report/pages/limit_cycles.hpp"
 #include "host/report/pages/model_fit.hpp"
 #include "host/report/pages/parameters.hpp"
+#include "host/report/pages/summary.hpp"
 #include "host/report/session_page.hpp"
 
 namespace cartwright::report {
 namespace {
 
 constexpr Colour kModelColours[] = {Colour::model, Colour::other_model, Colour::fourth, Colour::warning};
+
+constexpr const char* kFromOneStep = "one step, six intervals";
+constexpr const char* kFromRelays = "relay tests";
 
 /// The speed that nearly all rows stay below, from positions a few rows apart so that the encoder's steps do
 /// not count as speed.
@@ -71,7 +75,7 @@ Model model_of(const RelayReport& relay) {
 }
 
 ParameterColumn column_of(const RelayReport& relay) {
-  ParameterColumn column{"identified, relay tests", {}};
+  ParameterColumn column{kFromRelays, {}};
   for (const RelayReport::Value& value : relay.parameters) {
     if (const auto parameter = find_parameter(value.name)) column.values[*parameter] = value.estimate;
   }
@@ -92,25 +96,34 @@ Report identification_page(const IdentificationPage& content) {
       has_relay_tests(session) ? identify_from_relay(session) : failure("there are none");
   std::vector<NamedModel> models = content.models;
   std::vector<ParameterColumn> columns;
-  for (const NamedModel& one : models) columns.push_back(column_of(one.name, one.model));
+  for (const NamedModel& one : models) columns.push_back(column_of(one));
   const Result<StepDamping> step = step_damping(session);
   if (step) {
     // One step with constant damping is a stage on the way: it stands in the table, not in every plot.
-    columns.push_back(column_of("identified, one step, constant", step->constant));
-    columns.push_back(column_of("identified, one step, six intervals", step->piecewise));
+    columns.push_back(column_of("one step, constant", step->constant));
+    columns.push_back(column_of(kFromOneStep, step->piecewise));
   }
   if (relay) {
-    models.push_back({"relay tests", model_of(*relay)});
+    models.push_back({kFromRelays, model_of(*relay)});
     columns.push_back(column_of(*relay));
   }
-  if (step) models.push_back({"one step, six intervals", step->piecewise.model});
+  if (step) models.push_back({kFromOneStep, step->piecewise.model});
   if (content.truth) columns.push_back(column_of("true", *content.truth));
   // The latest is the one that is looked at: it gets the first colour.
   for (std::size_t i = 0; i < models.size(); ++i) {
     models[models.size() - 1 - i].colour = kModelColours[i % std::size(kModelColours)];
   }
 
+  std::vector<ModelOrigin> origins;
+  for (const NamedModel& one : models) {
+    const bool given = origins.size() < content.models.size();
+    origins.push_back({one, given                     ? "a file given to the report"
+                            : one.name == kFromRelays ? "limit cycles of the relay tests, matched in time"
+                                                      : step->piecewise.file + ", by the integral method"});
+  }
+
   Report page{"Identification of " + session.rig.name};
+  add_summary(page, session, origins, content.truth);
   add_what_was_run(page, content);
   page.section("Parameters");
   page.table(parameters_table("Every model side by side", columns));

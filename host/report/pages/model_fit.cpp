@@ -36,7 +36,11 @@ void add_fit_table(Report& page, const Session& session, const std::vector<Named
   // A table each: all in one would be wider than a page.
   constexpr Kind kKinds[] = {
       {"Rms error of position, closed loop",
-       "The controller re-run on the model from the recorded reference.", &Prediction::closed_loop},
+       "The controller re-run on the model from the recorded reference. A relay's limit cycle keeps the "
+       "phase it "
+       "once got: small errors add up over its switches, and a model's error there can be as large as the "
+       "cycle.",
+       &Prediction::closed_loop},
       {"Rms error of position, 0.5 s windows",
        "The recorded voltage replayed over half a second, the start of each window fitted.",
        &Prediction::window},

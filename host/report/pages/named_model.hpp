@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "common/config/interval_toml.hpp"
 #include "common/model/model.hpp"
 #include "host/report/plot.hpp"
 
@@ -12,6 +14,7 @@ struct NamedModel {
   std::string name;
   Model model;
   Colour colour = Colour::model;
+  std::vector<ParameterInterval> intervals{};  ///< of the numbers that have one
 };
 
 }  // namespace cartwright::report

@@ -1,5 +1,7 @@
 #include "host/report/pages/parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/report/unit.hpp"
@@ -12,6 +14,14 @@ std::string name_of(const ParameterInfo& parameter) {
   return parameter.term ? words_of(info(*parameter.term).name) + ", " + key : key;
 }
 
+/// With its interval; or as somebody states it, whose own digits count.
+Cell cell_of(const Estimate& estimate) {
+  if (estimate.has_interval()) return estimate;
+  Cell cell{fmt::format("{:.6g}", estimate.value)};
+  cell.numeric = true;
+  return cell;
+}
+
 }  // namespace
 
 ParameterColumn column_of(std::string heading, const Model& model) {
@@ -22,9 +32,20 @@ ParameterColumn column_of(std::string heading, const Model& model) {
   return out;
 }
 
+ParameterColumn column_of(const NamedModel& model) {
+  ParameterColumn out = column_of(model.name, model.model);
+  for (const ParameterInterval& interval : model.intervals) {
+    Estimate& estimate = out.values[interval.id];
+    estimate.low = interval.low;
+    estimate.high = interval.high;
+  }
+  return out;
+}
+
 Table parameters_table(std::string caption, const std::vector<ParameterColumn>& columns) {
   Table table;
   table.caption = std::move(caption);
+  table.intervals_below = true;
   table.columns = {{"Parameter"}, {"Unit"}};
   for (const ParameterColumn& column : columns) table.columns.push_back({column.heading});
   for (const ParameterInfo& parameter : parameters()) {
@@ -37,7 +58,7 @@ Table parameters_table(std::string caption, const std::vector<ParameterColumn>& 
       const auto found = column.values.find(parameter.id);
       Cell none{"–"};
       none.numeric = true;
-      cells.push_back(found == column.values.end() ? none : Cell(found->second));
+      cells.push_back(found == column.values.end() ? none : cell_of(found->second));
     }
     table.row(std::move(cells));
   }
