@@ -52,6 +52,21 @@ void table_of_measures(Report& page, const std::vector<Measure>& list, const Out
   page.list(baseline_descriptions());
 }
 
+Plot confidences(const Outcomes& outcomes) {
+  Plot plot;
+  plot.title = "How sure it says it is";
+  plot.x = {.label = "confidence stated"};
+  plot.y = {.label = "names"};
+  plot.height_px = 300;
+  std::vector<double> right, wrong;
+  for (const Outcome& o : outcomes) {
+    for (const NamedEffect& n : o.named) (n.right ? right : wrong).push_back(n.confidence);
+  }
+  plot.add(histogram("right", right, 20));
+  if (!wrong.empty()) plot.add(histogram("wrong", wrong, 20));
+  return plot;
+}
+
 void reliability_plot(Report& page, const Outcomes& outcomes) {
   page.section("Is its confidence what it says?");
   const std::vector<ReliabilityBin> bins = reliability(outcomes);
@@ -64,10 +79,9 @@ void reliability_plot(Report& page, const Outcomes& outcomes) {
   plot.caption =
       "Groups of names of about the same confidence, bars: 95 % intervals. Above the line: more "
       "careful than need be; below: too sure.";
-  plot.x = {.label = "confidence stated", .least = 0, .greatest = 1};
-  plot.y = {.label = "share that was right", .least = 0, .greatest = 1};
-  plot.height_px = 380;
-  plot.square = true;
+  plot.x = {.label = "confidence stated", .least = 0, .greatest = 1.02};
+  plot.y = {.label = "share that was right", .least = 0, .greatest = 1.02};
+  plot.height_px = 300;
   plot.add(
       {.name = "as often as it says", .x = {0, 1}, .y = {0, 1}, .colour = Colour::muted, .dashed = true});
   Series points{.name = "names", .mark = Mark::points, .colour = Colour::model};
@@ -82,7 +96,7 @@ void reliability_plot(Report& page, const Outcomes& outcomes) {
                Cell::integer(static_cast<std::size_t>(bin.right)), bin.share_right});
   }
   plot.add(points);
-  page.plot(plot);
+  page.plots({plot, confidences(outcomes)}, 2);
   page.table(table);
 }
 
@@ -115,7 +129,7 @@ void detection(Report& page, const Outcomes& outcomes) {
   }
   Plot sizes, excess;
   sizes.title = "Named first, against the size of the effect";
-  sizes.y = excess.y = {.label = "named first", .unit = "%", .least = 0, .greatest = 100};
+  sizes.y = excess.y = {.label = "named first", .unit = "%", .least = 0, .greatest = 102};
   std::vector<double> x;
   for (const Detection& d : by_size) {
     sizes.x.categories.push_back(fmt::format("{} ({})", d.label, d.cases));
@@ -142,7 +156,7 @@ void detection(Report& page, const Outcomes& outcomes) {
                                  o.named.empty() ? "" : ", " + o.named.front().name, o.excess_over_floor()));
   }
   if (missed.empty()) return;
-  page.details(fmt::format("{} sessions in which the effect was not named first", missed.size()),
+  page.details(fmt::format("Not named first: {} sessions", missed.size()),
                [&](Report& inside) { inside.list(missed); });
 }
 

@@ -157,6 +157,7 @@ Estimate quantile(std::vector<double> values, double share) {
     return values[below] + (r - std::floor(r)) * (values[above] - values[below]);
   };
   // The number of values below the true quantile is binomial.
+  if (share <= 0 || share >= 1) return {at(share * last)};  // the greatest says nothing of what might be
   const double spread = normal(0.95) * std::sqrt(n * share * (1 - share));
   return {at(share * last), at(std::floor(n * share - spread) - 1), at(std::ceil(n * share + spread))};
 }
