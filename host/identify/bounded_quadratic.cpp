@@ -13,26 +13,43 @@ using Eigen::VectorXd;
 
 enum class Place { free, at_lower, at_upper };
 
+struct Problem {
+  const MatrixXd& A;
+  const VectorXd &b, &s;
+
+  VectorXd gradient(const VectorXd& x) const { return A.transpose() * (A * x - b) - s; }
+};
+
 /// The entries that are free and the minimum over them, the others staying where they are.
 struct FreePart {
   std::vector<Index> entries;
   VectorXd wanted;
 
-  FreePart(const MatrixXd& H, const VectorXd& g, const VectorXd& x, const std::vector<Place>& place) {
+  FreePart(const Problem& problem, const VectorXd& x, const std::vector<Place>& place) {
     for (Index i = 0; i < x.size(); ++i) {
       if (place[static_cast<std::size_t>(i)] == Place::free) entries.push_back(i);
     }
-    VectorXd held = x;
-    for (const Index i : entries) held[i] = 0;
-    wanted = H(entries, entries).ldlt().solve((g - H * held)(entries));
+    wanted = x(entries);
+    if (entries.empty()) return;
+    // A_free = Q R P': the step d solves R'R P'd = R'Q'(b - A x) + P's. Columns that add nothing stay put.
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(problem.A(Eigen::all, entries));
+    const Index rank = qr.rank();
+    const auto R = qr.matrixQR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
+    VectorXd right = (qr.householderQ().transpose() * (problem.b - problem.A * x)).head(rank);
+    const VectorXd s_free = qr.colsPermutation().transpose() * VectorXd(problem.s(entries));
+    if (!s_free.isZero(0)) right += R.transpose().solve(s_free.head(rank));
+    VectorXd step = VectorXd::Zero(wanted.size());
+    step.head(rank) = R.solve(right);
+    wanted += VectorXd(qr.colsPermutation() * step);
   }
 };
 
 }  // namespace
 
-BoundedSolution minimise_within(const MatrixXd& H, const VectorXd& g, const VectorXd& lower,
-                                const VectorXd& upper) {
-  const Index size = g.size();
+BoundedSolution minimise_within(const MatrixXd& A, const VectorXd& b, const VectorXd& s,
+                                const VectorXd& lower, const VectorXd& upper) {
+  const Problem problem{A, b, s};
+  const Index size = A.cols();
   std::vector<Place> place(static_cast<std::size_t>(size), Place::free);
   const auto at = [&place](Index i) -> Place& { return place[static_cast<std::size_t>(i)]; };
   BoundedSolution out;
@@ -46,13 +63,16 @@ BoundedSolution minimise_within(const MatrixXd& H, const VectorXd& g, const Vect
       out.x[i] = upper[i];
     }
   }
-  const double tolerance = 1e-14 * std::max(g.cwiseAbs().maxCoeff(), 1e-300);
+  // Next to nothing: hundreds of damping values hang on pulls far below rounding of the whole. What is freed
+  // by rounding alone comes back to its bound and is refused.
+  const double tolerance =
+      1e-18 * std::max(problem.gradient(VectorXd::Zero(size)).cwiseAbs().maxCoeff(), 1e-300);
   std::vector<bool> refused(place.size(), false);  // would leave its bound to the wrong side: rounding
   for (Index round = 0; round < 20 * size + 20; ++round) {
     // The minimum over the free entries, entries that would cross a bound stopping there.
     Index just_freed = -1;
     if (round > 0) {
-      const VectorXd gradient = H * out.x - g;
+      const VectorXd gradient = problem.gradient(out.x);
       double steepest = tolerance;
       for (Index i = 0; i < size; ++i) {
         const double pull = at(i) == Place::at_lower   ? -gradient[i]
@@ -71,7 +91,7 @@ BoundedSolution minimise_within(const MatrixXd& H, const VectorXd& g, const Vect
     }
     bool moved = false;
     while (true) {
-      const FreePart part(H, g, out.x, place);
+      const FreePart part(problem, out.x, place);
       double reach = 1;
       Index stops = -1;
       for (std::size_t n = 0; n < part.entries.size(); ++n) {
@@ -105,7 +125,7 @@ BoundedSolution minimise_within(const MatrixXd& H, const VectorXd& g, const Vect
     }
   }
   out.multipliers = VectorXd::Zero(size);
-  const VectorXd gradient = H * out.x - g;
+  const VectorXd gradient = problem.gradient(out.x);
   for (Index i = 0; i < size; ++i) {
     if (at(i) != Place::free) out.multipliers[i] = gradient[i];
   }

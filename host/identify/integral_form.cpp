@@ -174,6 +174,44 @@ void as_inequalities(const StepBounds& bounds, Index size, MatrixXd& G, VectorXd
 
 }  // namespace
 
+PiecewiseForm::Factored PiecewiseForm::factored() const {
+  const auto size = g_.size();
+  const auto count = static_cast<Index>(intervals());
+  // Each interval's samples shrink to four rows, in its own four unknowns; these to rows of all unknowns.
+  MatrixXd rows(4 * count, size + 1);
+  MatrixXd samples(0, 5);
+  std::size_t current = 0;
+  const auto reduce = [&](std::size_t interval) {
+    const auto first = static_cast<Index>(4 * interval);
+    const Eigen::HouseholderQR<MatrixXd> qr(samples.leftCols(4));
+    const VectorXd right = qr.householderQ().transpose() * samples.col(4);
+    MatrixXd R = MatrixXd::Zero(4, 4);
+    const Index kept = std::min<Index>(4, samples.rows());
+    R.topRows(kept) = qr.matrixQR().topRows(kept).triangularView<Eigen::Upper>();
+    rows.block(first, 0, 4, size).noalias() = R * local_[interval];
+    rows.block(first, size, 4, 1).setZero();
+    rows.block(first, size, kept, 1) = right.head(kept);
+  };
+  const auto rows_of = [&](std::size_t interval) {
+    return static_cast<Index>(boundaries_[interval + 1] - boundaries_[interval]);
+  };
+  samples.resize(rows_of(0), 5);
+  each_sample([&](std::size_t row, std::size_t interval, const Eigen::RowVector4d& basis) {
+    if (interval != current) {
+      reduce(current);
+      current = interval;
+      samples.resize(rows_of(interval), 5);
+    }
+    samples.row(static_cast<Index>(row - boundaries_[interval])) << basis, data_.y_m[row];
+  });
+  reduce(current);
+  const Eigen::HouseholderQR<MatrixXd> qr(rows.leftCols(size));
+  const Index kept = std::min(size, rows.rows());
+  Factored out{MatrixXd::Zero(kept, size), (qr.householderQ().transpose() * rows.col(size)).head(kept)};
+  out.R = qr.matrixQR().topRows(kept).triangularView<Eigen::Upper>();
+  return out;
+}
+
 QuadraticSolution PiecewiseForm::solve(const DampingConstraints& constraints, const VectorXd& shift) const {
   const double length_s = (data_.t_s.back() - data_.t_s.front()) / static_cast<double>(intervals());
   const StepBounds bounds(constraints, length_s);
@@ -185,14 +223,15 @@ QuadraticSolution PiecewiseForm::solve(const DampingConstraints& constraints, co
   QuadraticSolution out = minimise(H, g, MatrixXd(0, size), VectorXd(0));
   if (bounds.any() && steps > 0) {
     const MatrixXd T = from_steps(size);
-    const MatrixXd H_steps = T.transpose() * H_ * T;
-    const VectorXd unit = H_steps.diagonal().cwiseSqrt().cwiseInverse();
+    const Factored whole = factored();
+    MatrixXd A = whole.R * T;
+    const VectorXd unit = A.colwise().norm().cwiseInverse();
+    A = A * unit.asDiagonal();
     const double none = std::numeric_limits<double>::infinity();
     VectorXd lower = VectorXd::Constant(size, -none), upper = VectorXd::Constant(size, none);
     lower.segment(3, steps).setConstant(bounds.lower);
     upper.segment(3, steps).setConstant(bounds.upper);
-    const BoundedSolution found = minimise_within(unit.asDiagonal() * H_steps * unit.asDiagonal(),
-                                                  unit.cwiseProduct(T.transpose() * (g_ + shift)),
+    const BoundedSolution found = minimise_within(A, whole.right, unit.cwiseProduct(T.transpose() * shift),
                                                   lower.cwiseQuotient(unit), upper.cwiseQuotient(unit));
     out.x = (T * unit.cwiseProduct(found.x)).cwiseQuotient(scale);
     out.converged = found.converged && bounds.lower <= bounds.upper;

@@ -74,6 +74,13 @@ class PiecewiseForm {
   const std::vector<std::size_t>& boundaries() const { return boundaries_; }
 
  private:
+  /// |X x - y|^2 = |R x - right|^2 + what no x changes, without ever squaring the condition of X.
+  struct Factored {
+    Eigen::MatrixXd R;
+    Eigen::VectorXd right;
+  };
+  Factored factored() const;
+
   template <typename Visit>
   void each_sample(Visit&& visit) const;
 
