@@ -260,8 +260,7 @@ void Controller::begin_recording() noexcept {
     entry_.law = wire::Law::pd;
     pd_law_ = PidController(entry_.pd, setup_.period_s, kNoLimit, setup_.voltage_limit_V);
     compensation_.restart(entry_.pd.pd);
-    // The twin of the identification knows the PD law only.
-    entry_.pd.ki_V_per_m_s == 0 ? online_.begin(entry_.pd.pd) : online_.end();
+    online_.begin(entry_.pd);
   }
   exchange_.recordings[status_.recordings].write(entry_);
   ++status_.recordings;

@@ -27,7 +27,7 @@ void OnlineIdentification::set_model(const PlantTerms& terms) noexcept {
   if (given_) twin_.set_model(terms.beta, terms.viscous, terms.coulomb);
 }
 
-void OnlineIdentification::begin(const PdGains& gains) noexcept {
+void OnlineIdentification::begin(const PidGains& gains) noexcept {
   rows_.interrupt();
   twin_.begin(gains);
 }

@@ -26,8 +26,8 @@ class OnlineIdentification {
   /// The model to hold recordings against; a voltage gain of zero: none.
   void set_model(const PlantTerms& terms) noexcept;
 
-  /// A recording under a PD law starts. `end`: the rows to come belong to no known law.
-  void begin(const PdGains& gains) noexcept;
+  /// A recording under a PD or PID law starts. `end`: the rows to come belong to no known law.
+  void begin(const PidGains& gains) noexcept;
   void end() noexcept;
 
   /// A tick: its reading, the voltage put out from then on, reference and added voltage.

@@ -28,8 +28,8 @@ void Twin::set_model(double gain, double viscous_per_s, double coulomb_m_per_s2)
   plant_ = next;
 }
 
-void Twin::begin(const PdGains& gains) noexcept {
-  law_ = PdController(gains, period_s_, voltage_limit_V_);
+void Twin::begin(const PidGains& gains) noexcept {
+  law_ = PidController(gains, period_s_, voltage_limit_V_);
   running_ = first_ = true;
 }
 

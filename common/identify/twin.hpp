@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 #include "common/identify/moving_rows.hpp"
 #include "common/model/plant.hpp"
 
@@ -18,8 +18,8 @@ class Twin {
 
   /// The model from now on; the movement goes on. Not positive: no twin.
   void set_model(double gain_m_per_s2_V, double viscous_per_s, double coulomb_m_per_s2) noexcept;
-  /// A new recording under a PD law, from rest.
-  void begin(const PdGains& gains) noexcept;
+  /// A new recording under a PD or PID law, from rest.
+  void begin(const PidGains& gains) noexcept;
   /// No law that the twin knows.
   void end() noexcept { running_ = false; }
 
@@ -30,7 +30,7 @@ class Twin {
   double period_s_, voltage_limit_V_;
   bool modelled_ = false, running_ = false, first_ = true;
   Plant plant_;
-  PdController law_;
+  PidController law_;
   double apart_m2_ = 0, moved_m2_ = 0, middle_m_ = 0, apart_s_ = 0;
 };
 

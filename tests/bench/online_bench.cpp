@@ -45,7 +45,7 @@ void identification_tick(benchmark::State& bench) {
   std::vector<double> took_us;
   for (auto _ : bench) {
     OnlineIdentification online(setup);
-    online.begin({80, 2, 50, false});
+    online.begin({{80, 2, 50, false}, 0});
     for (const Row& row : rows) {
       const auto before = std::chrono::steady_clock::now();
       online.tick(row.t_s, row.y_m, row.u_V, row.r_m, 0);
