@@ -35,7 +35,7 @@ TrackingResult track(const TrackingSetup& setup,
   Compensation compensation(setup.period_s);
   compensation.set(Compensation::prepare(setup.compensation, setup.period_s));
   compensation.restart(setup.gains);
-  PdController law(setup.gains, setup.period_s, setup.voltage_limit_V);
+  PidController law({setup.gains, setup.ki_V_per_m_s}, setup.period_s, setup.voltage_limit_V);
   Plant plant(setup.truth);
   plant.reset(0);
   Encoder encoder(setup.truth, setup.encoder_step_m);

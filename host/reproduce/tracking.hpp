@@ -4,14 +4,15 @@
 #include <functional>
 
 #include "common/control/compensation.hpp"
-#include "common/control/pd.hpp"
+#include "common/control/pid.hpp"
 
 namespace cartwright::reproduce {
 
-/// A sine to be followed by a simulated machine under the PD law, with or without compensation.
+/// A sine to be followed by a simulated machine under the PD or PID law, with or without compensation.
 struct TrackingSetup {
   Model truth{1.9};
   PdGains gains{80, 3, 50, false};
+  double ki_V_per_m_s = 0;
   CompensationSettings compensation;
   double period_s = 1e-3, duration_s = 20, voltage_limit_V = 12;
   double amplitude_m = 0.1, frequency_hz = 0.5;
