@@ -281,19 +281,21 @@ class Diagnostician {
     evidence.at_bound = static_cast<int>(effect.at_bound.size());
     // The score of the explanation as it stood when this effect was chosen.
     const Explanation* winner = &contest.winner;
+    const std::size_t before = result_.runner_up.size();
     for (const Explanation& other : contest.alternatives) {
       if (result_.search.best.has(other.effects.back())) continue;  // named as well, beside it
       const double behind = winner->score() - other.score();
-      const double z = paired_z(winner->fit, other.fit);
-      const bool same = behind < kEquivalentNats && z < kEquivalentZ;
-      const double weight = std::exp(-std::min(behind / kGainOverPromise, 50.0));
+      const double weight = weight_of_rival(behind);
       evidence.margin_nats = std::min(evidence.margin_nats, behind);
-      evidence.rivals += same ? 0 : weight;
-      if (same) effect.equivalent.push_back(other.effects.back());
-      result_.runner_up.push_back({other.effects.back(), weight / (1 + weight), behind});
+      evidence.rivals += weight;
+      if (behind < kEquivalentNats && paired_z(winner->fit, other.fit) < kEquivalentZ)
+        effect.equivalent.push_back(other.effects.back());
+      result_.runner_up.push_back({other.effects.back(), weight, behind});
     }
     evidence.equivalent = static_cast<int>(effect.equivalent.size());
     effect.confidence = confidence(evidence);
+    for (std::size_t i = before; i < result_.runner_up.size(); ++i)
+      result_.runner_up[i].confidence *= effect.confidence;  // the odds are those of the weights
   }
 
   /// What would settle it, where the data does not: two names that it cannot tell apart, or an effect that is

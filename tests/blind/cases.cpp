@@ -13,17 +13,18 @@ std::vector<Case> one_each(const std::vector<std::string>& effects, const Draws&
   for (std::uint64_t seed = draws.first; seed < draws.first + draws.seeds; ++seed) {
     std::uint64_t cart = 100 * seed;
     for (const int size : draws.sizes) {
-      for (const std::string& effect : effects) cases.push_back({{effect}, static_cast<Size>(size), cart++});
+      for (const std::string& effect : effects)
+        cases.push_back({{effect}, static_cast<Size>(size), cart++, draws.recordings});
     }
   }
   return cases;
 }
 
-Case pair(std::uint64_t seed) {
+Case pair(std::uint64_t seed, std::size_t recordings) {
   std::mt19937_64 random(seed);
   const auto& list = effects_of_the_vocabulary();
   const std::size_t a = random() % list.size(), b = (a + 1 + random() % (list.size() - 1)) % list.size();
-  return {{list[a], list[b]}, Size::medium, seed};
+  return {{list[a], list[b]}, Size::medium, seed, recordings};
 }
 
 }  // namespace
@@ -48,9 +49,9 @@ std::vector<Case> cases_of(const std::string& set, const Draws& draws) {
   if (set == "effects") return one_each(effects_of_the_vocabulary(), draws);
   if (set == "outside") return one_each(effects_outside(), draws);
   for (std::uint64_t seed = draws.first; seed < draws.first + draws.seeds; ++seed) {
-    if (set == "clean") cases.push_back({{}, Size::medium, seed});
-    if (set == "change") cases.push_back({{"parameter_change"}, Size::medium, seed});
-    if (set == "pairs") cases.push_back(pair(seed));
+    if (set == "clean") cases.push_back({{}, Size::medium, seed, draws.recordings});
+    if (set == "change") cases.push_back({{"parameter_change"}, Size::medium, seed, draws.recordings});
+    if (set == "pairs") cases.push_back(pair(seed, draws.recordings));
   }
   return cases;
 }

@@ -13,6 +13,7 @@ struct Case {
   std::vector<std::string> effects;  ///< none: a session without any
   Size size = Size::medium;
   std::uint64_t seed = 1;
+  std::size_t recordings = 10;  ///< how many of the battery's ten are there to be judged
 
   bool operator==(const Case&) const = default;
 };
@@ -24,6 +25,7 @@ std::string effects_of(const Case& asked);
 struct Draws {
   std::vector<int> sizes{2};
   std::uint64_t first = 1, seeds = 1;
+  std::size_t recordings = 10;
 };
 
 /// Names of the sets: effects, pairs, outside, clean, change; and all of them, in that order.

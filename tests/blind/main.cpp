@@ -128,6 +128,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seeds", options.draws.seeds, "how many draws")->capture_default_str();
   app.add_option("--first", options.draws.first, "the first seed")->capture_default_str();
+  app.add_option("--recordings", options.draws.recordings, "only the first so many of each battery")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
   app.add_option("--jobs", options.jobs, "sessions at a time, one thread each")->capture_default_str();
   app.add_option("--only", options.only, "only these effects");
   app.add_flag("--baselines", options.baselines, "put the same sessions to the baselines as well");

@@ -22,6 +22,13 @@ Model believed(const Concealed& c) {
   return model;
 }
 
+/// The first recordings of the battery.
+Session recorded(const Concealed& c, const Case& asked) {
+  Session session = battery(c.physics, asked.seed);
+  session.recordings.resize(std::min(asked.recordings, session.recordings.size()));
+  return session;
+}
+
 /// Processor time of this thread: other programs on the machine do not count.
 double processor_time_s() {
   timespec now{};
@@ -80,7 +87,7 @@ double Outcome::excess_over_floor() const {
 
 Outcome ask(const Case& asked, Ask whom) {
   const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
-  const Session session = battery(hidden.physics, asked.seed);
+  const Session session = recorded(hidden, asked);
   const Model nominal = believed(hidden);
   Outcome out;
   out.asked = asked;
@@ -122,8 +129,7 @@ Outcome ask(const Case& asked, Ask whom) {
 
 Result<void> write_case(const Case& asked, const std::filesystem::path& directory) {
   const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
-  if (const auto written = write_session(battery(hidden.physics, asked.seed), directory); !written)
-    return written;
+  if (const auto written = write_session(recorded(hidden, asked), directory); !written) return written;
   return write_model(believed(hidden), directory / "nominal.toml");
 }
 

@@ -58,6 +58,7 @@ std::string to_line(const Outcome& o) {
   const json line{{"effects", o.asked.effects},
                   {"size", static_cast<int>(o.asked.size)},
                   {"seed", o.asked.seed},
+                  {"recordings", o.asked.recordings},
                   {"expected", o.expected},
                   {"verdict", cartwright::name(o.verdict)},
                   {"named", named},
@@ -77,7 +78,8 @@ Result<Outcome> from_line(const std::string& text) {
   try {
     const json line = json::parse(text);
     Outcome o;
-    o.asked = {line.at("effects"), static_cast<Size>(line.at("size").get<int>()), line.at("seed")};
+    o.asked = {line.at("effects"), static_cast<Size>(line.at("size").get<int>()), line.at("seed"),
+               line.value("recordings", std::size_t{10})};
     o.expected = line.at("expected").get<std::vector<std::string>>();
     o.verdict = verdict_from(line.at("verdict"));
     for (const json& n : line.at("named"))
