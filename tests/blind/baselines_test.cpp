@@ -7,6 +7,7 @@
 #include "tests/blind/baselines/sparse.hpp"
 #include "tests/blind/baselines/stlsq.hpp"
 #include "tests/blind/battery.hpp"
+#include "tests/blind/null.hpp"
 
 namespace cartwright::blind {
 namespace {
@@ -105,6 +106,13 @@ TEST(RulesOfTheBaselines, NameNothingOnlyWhereNothingGains) {
   // Half the log of 1000 rows, 3.5 nats, is more than the one it gains.
   EXPECT_THAT(stepwise_bic({}, round), IsEmpty());
   EXPECT_THAT(most_gain(round), ElementsAre("quadratic_drag"));
+}
+
+TEST(SurrogatesOfNothing, HoldNothingThatWouldBeNamed) {
+  for (const double gain : greatest_gains_of_nothing(short_session({}), nominal(), 1, 3)) {
+    EXPECT_GE(gain, 0);
+    EXPECT_LT(gain, kLeastGain);
+  }
 }
 
 }  // namespace

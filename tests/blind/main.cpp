@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "tests/blind/benchmark_page.hpp"
+#include "tests/blind/measures.hpp"
+#include "tests/blind/null.hpp"
 #include "tests/blind/saved.hpp"
 #include "tests/blind/summary.hpp"
 
@@ -22,6 +24,7 @@ struct Options {
   unsigned jobs = 2;
   std::vector<std::string> only;
   bool baselines = false;
+  std::size_t surrogates = 0;
   std::string write, save, report;
 };
 
@@ -67,6 +70,26 @@ int write(const std::vector<Case>& cases, const std::filesystem::path& directory
     for (const auto& [key, value] : draw(c.effects, c.size, c.seed).truth)
       fmt::print("{}: {} = {}\n", where.string(), key, value);
   }
+  return 0;
+}
+
+/// The greatest gains that the search finds in surrogates of clean sessions, beside what an effect must gain.
+int null(const Options& options) {
+  std::vector<double> all;
+  for (const Case& c : blind::cases_of("clean", options.draws)) {
+    const Question q = question_of(c);
+    for (const double gain : greatest_gains_of_nothing(q.session, q.nominal, options.surrogates, c.seed)) {
+      all.push_back(gain);
+      fmt::print("draw {}, surrogate {}: {:.2f} nats\n", c.seed, all.size(), gain);
+      std::fflush(stdout);
+    }
+  }
+  const auto beyond = std::count_if(all.begin(), all.end(), [](double g) { return g >= kLeastGain; });
+  fmt::print(
+      "greatest gain found in {} surrogates: median {:.2f}, 90th percentile {:.2f}, most {:.2f} nats; "
+      "{} reach the {} that an effect must gain\n",
+      all.size(), quantile(all, 0.5).value, quantile(all, 0.9).value, quantile(all, 1).value, beyond,
+      kLeastGain);
   return 0;
 }
 
@@ -134,10 +157,13 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", options.jobs, "sessions at a time, one thread each")->capture_default_str();
   app.add_option("--only", options.only, "only these effects");
   app.add_flag("--baselines", options.baselines, "put the same sessions to the baselines as well");
+  app.add_option("--null", options.surrogates,
+                 "instead: so many surrogates of each clean session, and the greatest gain found in them");
   app.add_option("--save", options.save, "add each outcome to this file, and skip the cases it holds");
   app.add_option("--report", options.report, "make a page of the outcomes, those of the file included");
   app.add_option("--write", options.write, "write the sessions there, with their truth, and ask nothing");
   CLI11_PARSE(app, argc, argv);
+  if (options.surrogates > 0) return null(options);
   const std::vector<Case> cases = cases_of(options);
   if (!options.write.empty()) return write(cases, options.write);
   const auto outcomes = ask_all(cases, options);

@@ -127,10 +127,15 @@ Outcome ask(const Case& asked, Ask whom) {
   return out;
 }
 
-Result<void> write_case(const Case& asked, const std::filesystem::path& directory) {
+Question question_of(const Case& asked) {
   const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
-  if (const auto written = write_session(recorded(hidden, asked), directory); !written) return written;
-  return write_model(believed(hidden), directory / "nominal.toml");
+  return {recorded(hidden, asked), believed(hidden)};
+}
+
+Result<void> write_case(const Case& asked, const std::filesystem::path& directory) {
+  const Question question = question_of(asked);
+  if (const auto written = write_session(question.session, directory); !written) return written;
+  return write_model(question.nominal, directory / "nominal.toml");
 }
 
 }  // namespace cartwright::blind

@@ -57,6 +57,13 @@ enum class Ask { diagnosis, diagnosis_and_baselines };
 /// Hides, records, diagnoses and compares, on the thread that calls.
 Outcome ask(const Case& asked, Ask whom);
 
+/// What is to be judged: the recordings, and the model that their cart's owner believes in.
+struct Question {
+  Session session;
+  Model nominal;
+};
+Question question_of(const Case& asked);
+
 /// The session and the nominal model of a case, as files to look at.
 Result<void> write_case(const Case& asked, const std::filesystem::path& directory);
 
