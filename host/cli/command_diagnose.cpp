@@ -17,6 +17,7 @@ namespace {
 
 struct Options {
   std::string model, session, out;
+  std::vector<std::string> hold;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool json = false;
 };
@@ -55,6 +56,13 @@ Outcome run(const Options& options) {
   if (!remarks) return failure(fmt::format("{}: {}", options.session, remarks.error().message));
   DiagnoseOptions how;
   how.threads = options.threads;
+  for (const std::string& name : options.hold) {
+    const auto id = find_parameter(name);
+    if (!id)
+      return failure(
+          fmt::format("--hold {}: no parameter of a model; names are as in identify's answer", name));
+    how.held.push_back(*id);
+  }
   ProgressBar bar("diagnosing");
   how.progress = [&bar](std::string_view what, double share) {
     bar.label(std::string(what));
@@ -93,6 +101,12 @@ void add_diagnose(CLI::App& app, int& exit_status) {
   command->add_option("--session", options->session, "directory with session.toml")->required();
   command->add_option("--out", options->out, "directory for diagnosis.json, model.toml and report.html")
       ->required();
+  command
+      ->add_option(
+          "--hold", options->hold,
+          "numbers of the nominal model to keep as given, where this session cannot tell them and another "
+          "could: voltage_gain_m_per_s2_V, viscous_friction.coefficient_per_s, ...")
+      ->delimiter(',');
   command->add_option("--threads", options->threads, "threads to use")
       ->check(CLI::Range(1u, 256u))
       ->capture_default_str();

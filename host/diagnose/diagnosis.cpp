@@ -92,6 +92,7 @@ class Diagnostician {
     Session used = without(session_, held);
     SearchOptions search;
     search.threads = options_.threads;
+    search.held = options_.held;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
     result_.search = explain(used, nominal_, search);
     if (!held.empty() && shows_a_push(held)) {
@@ -331,6 +332,9 @@ class Diagnostician {
   }
 
   void remark() {
+    for (const P id : options_.held)
+      result_.remarks.push_back(
+          fmt::format("{} was held at {:.6g}, as given.", dotted_name(id), nominal_[id]));
     const auto& list = session_.recordings;
     const double found = result_.search.refitted.fit.model[P::voltage_gain];
     if (found * nominal_[P::voltage_gain] < 0) {

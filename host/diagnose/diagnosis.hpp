@@ -82,6 +82,7 @@ struct Diagnosis {
 
 struct DiagnoseOptions {
   unsigned threads = 2;
+  std::vector<Parameter> held;  ///< numbers of the nominal model that are kept as given
   std::function<void(std::string_view what, double share_done)> progress;
 };
 

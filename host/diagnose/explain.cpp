@@ -16,6 +16,8 @@ constexpr std::size_t kStartsFitted = 2;     // most starts of one term
 constexpr double kLeastPromise = 3.0;        // nats, to be fitted at all
 /// A fit gains more than its start promises, up to 7 times in carts of all terms; none was seen to gain more.
 constexpr double kMostGainOverPromise = 10.0;
+/// Ends a search that keeps finding what it drops again.
+constexpr std::size_t kMostStages = 8;
 constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
 constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
@@ -47,15 +49,16 @@ class Explainer {
     search.nominal = fit(session_, nominal_, noise, {}, fit_options_);
     set_outlier(search.nominal);
     search.nominal = fit(session_, nominal_, search.nominal.noise, {}, fit_options_);
-    search.refitted.fit =
-        fit(session_, nominal_, search.nominal.noise, free_parameters(nominal_, facts_), fit_options_);
+    search.refitted.fit = fit(session_, nominal_, search.nominal.noise, free_of_nominal(), fit_options_);
     set_outlier(search.refitted.fit);
     search.refitted.fit = fit(session_, search.refitted.fit.model, search.refitted.fit.noise,
                               search.refitted.fit.free, fit_options_);
     search.best = search.refitted;
-    for (std::size_t stage = 0; stage < options_.most_effects; ++stage) {
+    for (std::size_t stage = 0;
+         stage < kMostStages && effects_beyond_every_cart(search.best) < options_.most_effects; ++stage) {
       report("looking for what was left out",
-             (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1));
+             std::min(0.95,
+                      (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1)));
       const double so_far = search.best.score() - search.refitted.score();
       const double bar = std::max(kLeastGain, kLeastShareOfGain * so_far);
       std::vector<Explanation> tried = next_effects(search, stage, bar);
@@ -76,6 +79,21 @@ class Explainer {
  private:
   void report(std::string_view what, double share) const {
     if (options_.progress) options_.progress(what, share);
+  }
+
+  std::vector<FreeParameter> free_of_nominal() const {
+    std::vector<FreeParameter> free = free_parameters(nominal_, facts_);
+    std::erase_if(free, [this](const FreeParameter& p) {
+      return std::find(options_.held.begin(), options_.held.end(), p.id) != options_.held.end();
+    });
+    return free;
+  }
+
+  /// A nominal model may lack what every cart has; that it is found must not end the search for the rest.
+  static std::size_t effects_beyond_every_cart(const Explanation& one) {
+    return static_cast<std::size_t>(std::count_if(one.effects.begin(), one.effects.end(), [](Term term) {
+      return term != Term::viscous_friction && term != Term::coulomb_friction && term != Term::constant_force;
+    }));
   }
 
   void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }

@@ -14,7 +14,8 @@ constexpr std::size_t kPeaksKept = 3;
 constexpr double kStepsPerLobe = 2.5;  // lobes of the spectrum over position are 1/travel wide
 /// The finest period looked for is this many encoder counts, and crossed in no less than so many ticks.
 constexpr double kLeastCounts = 40;
-constexpr std::size_t kMostFrequencies = 400;
+constexpr std::size_t kMostFrequencies = 400;   // in a session of so many rows or more:
+constexpr std::size_t kRowsOfASession = 70000;  // shorter ones can afford more
 
 struct Peak {
   double gain = 0;
@@ -33,8 +34,9 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
   const double least_period =
       std::max(kLeastCounts * session.rig.encoder_resolution_m, 0.005 * facts.travel_m());
   const double step = 1 / (kStepsPerLobe * facts.travel_m());
-  const auto count =
-      std::min<std::size_t>(kMostFrequencies, static_cast<std::size_t>(1 / (least_period * step)));
+  const std::size_t affordable =
+      kMostFrequencies * std::max<std::size_t>(1, kRowsOfASession / static_cast<std::size_t>(rows));
+  const auto count = std::min(affordable, static_cast<std::size_t>(1 / (least_period * step)));
   const ObserverGains gains = observer_gains(base.noise, session.rig, options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig), starting = skip / 2;
   std::vector<std::vector<double>> velocity;
