@@ -19,19 +19,19 @@ struct Evidence {
 
 /// How much another term counts whose score is so many nats behind: 1 beside one that does as well.
 ///
-///     w = exp(-behind / T)
+///     w = exp(-behind)
 ///
-/// T = 1 would be the posterior odds of two models of equal prior chance whose likelihood is right in all; it
-/// is 1.5, because one-step errors keep some colour and no law is quite the cart's.
+/// the posterior odds of two terms of equal prior chance, the price of their numbers being in the score.
 double weight_of_rival(double behind_nats);
 
 /// How often a name given on such evidence is right,
 ///
-///     p = p_most (1 - exp(-gain / g)) (1 - left) / (1 + sum w)   [less where a number is at its bound]
+///     p = p_most (1 - exp(-gain / g)) (1 - exp(-share / s)) (1 - left) / (1 + sum w)
 ///
-/// that it is real at all, that what is left does not belong to something else, and that it is this one and
-/// no rival. It grows with gain and margin and falls with what is left. `p_most` is no more than the
-/// calibration can vouch for (see the .cpp): nothing is ever certain.
+/// (less where a number is at its bound): that it is real at all, that it is no bend of the other effects'
+/// laws, that what is left does not belong to something else, and that it is this one and no rival. g and s
+/// are what an effect must gain to be named, `kLeastGain` and `kLeastShareOfGain`. `p_most` is what the
+/// calibration can vouch for: nothing is ever certain.
 double confidence(const Evidence& evidence);
 
 }  // namespace cartwright

@@ -23,9 +23,6 @@ constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
 constexpr double kToleranceOfSketch = 2.0;  // nats
 constexpr double kNoiseStepOfSketch = 0.15;
-/// A further effect must gain this share of what the ones before it gained: less is the form of those being a
-/// little off, not physics of its own.
-constexpr double kLeastShareOfGain = 0.03;
 constexpr double kNearTheBest = 0.7;        // of the best gain
 constexpr double kWorthFinishing = 0.3;     // of the best gain
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise

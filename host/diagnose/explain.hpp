@@ -48,6 +48,9 @@ inline constexpr double kCostPerNumber = 4.0;
 /// An effect must gain this much, net of its numbers. Over some 300 looks (terms, starts, periods, places) at
 /// noise alone the best gains about log(300) = 6; twice that leaves room for noise that is not quite white.
 inline constexpr double kLeastGain = 12.0;
+/// A further effect must gain this share of what the ones before it gained: less is the form of those being a
+/// little off, not physics of its own.
+inline constexpr double kLeastShareOfGain = 0.03;
 
 /// Refits the nominal model, then adds one effect at a time from the whole vocabulary, each time the one that
 /// explains most with everything refitted, until none is worth its numbers; then drops what has become

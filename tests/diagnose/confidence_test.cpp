@@ -33,6 +33,13 @@ TEST(Confidence, GrowsWithGain) {
   }
 }
 
+TEST(Confidence, OfAFurtherEffectGrowsWithItsShare) {
+  Evidence little = clear(), half = clear();
+  little.share_of_gain = 0.035, half.share_of_gain = 0.5;
+  EXPECT_LT(confidence(little), 0.8);
+  EXPECT_NEAR(confidence(half), confidence(clear()), 1e-4);
+}
+
 TEST(Confidence, GrowsWithTheMarginOverARival) {
   double before = 0;
   for (const double behind : {0.0, 2.0, 5.0, 20.0}) {
