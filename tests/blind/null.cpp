@@ -19,6 +19,9 @@ std::vector<double> greatest_gains_of_nothing(const Session& clean, const Model&
     const OneRound round = one_round(surrogate(clean, refitted.model, noise, seed + i), nominal);
     double greatest = 0;  // of naming nothing
     for (const OneMore& one : round.tried) {
+      // A push before its recording began is a start state that does not fit; the search drops it as well.
+      const bool push = one.term == Term::external_disturbance;
+      if (push && one.fit.model[Parameter::disturbance_start] < 0) continue;
       const double numbers =
           static_cast<double>(one.fit.free.size() - round.base.free.size() + 2 * one.jumps.size());
       greatest =
