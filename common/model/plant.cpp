@@ -35,16 +35,21 @@ void Plant::reset(const PlantState& state) {
     state_.motor_velocity_m_per_s = state.velocity_m_per_s;
     return;
   }
+  find_contact();
+}
+
+/// Teeth that give are in contact where they overlap; rigid ones are held together once they are.
+void Plant::find_contact() noexcept {
   if (terms_.gap == 0) return;
   const double half = 0.5 * terms_.gap;
-  const double stretch = state.motor_position_m - state.position_m;
+  const double stretch = state_.motor_position_m - state_.position_m;
   if (!terms_.rigid_backlash) {
     state_.contact = stretch > half ? 1 : (stretch < -half ? -1 : 0);
-  } else if (state.contact != 0) {
-    state_.motor_position_m = state.position_m + half * state.contact;
-    state_.motor_velocity_m_per_s = state.velocity_m_per_s;
+  } else if (state_.contact != 0) {
+    state_.motor_position_m = state_.position_m + half * state_.contact;
+    state_.motor_velocity_m_per_s = state_.velocity_m_per_s;
   } else {
-    state_.motor_position_m = state.position_m + std::clamp(stretch, -half, half);
+    state_.motor_position_m = state_.position_m + std::clamp(stretch, -half, half);
   }
 }
 
@@ -63,12 +68,13 @@ void Plant::correct(double position_m, double velocity_m_per_s) {
   state_.velocity_m_per_s = velocity_m_per_s;
 }
 
-void Plant::correct_from_reading(double position_m, double velocity_m_per_s) {
-  if (terms_.gap == 0 || state_.contact != 0) return correct(position_m, velocity_m_per_s);
-  const double half = 0.5 * terms_.gap;
-  state_.motor_position_m = std::clamp(state_.motor_position_m, position_m - half, position_m + half);
+void Plant::correct(double position_m, double velocity_m_per_s, double motor_position_m,
+                    double motor_velocity_m_per_s) {
   state_.position_m = position_m;
   state_.velocity_m_per_s = velocity_m_per_s;
+  state_.motor_position_m = motor_position_m;
+  state_.motor_velocity_m_per_s = motor_velocity_m_per_s;
+  find_contact();
 }
 
 void Plant::advance(double command_V, double duration_s, double push_m_per_s2) noexcept {

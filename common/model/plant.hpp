@@ -56,9 +56,9 @@ class Plant {
   /// Puts the cart at another position and speed; the motor moves along.
   void correct(double position_m, double velocity_m_per_s);
 
-  /// As `correct`, for an observer with a reading of the cart: inside a backlash gap that says nothing of the
-  /// motor, which stays where it is unless the gap's end takes it along.
-  void correct_from_reading(double position_m, double velocity_m_per_s);
+  /// Puts both masses elsewhere, as an observer does that keeps apart what it knows of them.
+  void correct(double position_m, double velocity_m_per_s, double motor_position_m,
+               double motor_velocity_m_per_s);
 
   /// Holds `command_V` for `duration_s`; `push_m_per_s2` is an added acceleration of the cart.
   void advance(double command_V, double duration_s, double push_m_per_s2 = 0) noexcept;
@@ -71,6 +71,7 @@ class Plant {
     double armature_V;
   };
 
+  void find_contact() noexcept;
   void hold(double shaped_V, double duration_s) noexcept;
   void hold_linear(double duration_s) noexcept;
   void hold_one_mass(double duration_s) noexcept;

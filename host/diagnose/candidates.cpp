@@ -129,7 +129,7 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       logarithmic(2, 100);
       break;
     case P::backlash_contact_resonance:
-      logarithmic(50, 300);  // at a kilohertz, stiffer teeth look the same
+      logarithmic(50, 400);  // at a kilohertz, stiffer teeth look the same
       break;
     case P::coupling_damping_ratio:
     case P::backlash_contact_damping_ratio:

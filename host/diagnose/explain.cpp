@@ -28,8 +28,6 @@ constexpr double kWorthFinishing = 0.3;     // of the best gain
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise
 /// Two masses cost ten times the time of one: fitted only where they promise to compete.
 constexpr double kLeastShareOfTwoMasses = 0.25;
-constexpr double kStepOverKinks = 0.05;  // of a parameter's scale
-constexpr int kSweepsOfSketch = 2;
 constexpr double kOutlierOverNoise = 6.0;  // errors beyond this many noise sizes count linearly
 
 class Explainer {
@@ -113,7 +111,7 @@ class Explainer {
     const auto gap = std::find_if(chosen.begin(), chosen.end(), is_gap);
     if (gap != chosen.end()) {
       const std::vector<Promise> better =
-          scan_gaps(data, base.fit, *gap, facts_, fit_options_, options_.threads);
+          scan_gaps(data, base.fit, *gap, facts_, with_kinks(gap->start, fit_options_), options_.threads);
       std::erase_if(chosen, is_gap);
       chosen.insert(chosen.begin(), better.begin(), better.end());
     }
@@ -128,8 +126,8 @@ class Explainer {
       tried[i].effects = base.effects;
       tried[i].effects.push_back(chosen[i].term);
       tried[i].jumps = base.jumps;
-      tried[i].fit = fit(data, chosen[i].start, base.fit.noise, chosen[i].free,
-                         with_kinks(chosen[i].start, sketch, kSweepsOfSketch));
+      tried[i].fit = fit(data, chosen[i].start, chosen[i].noise.value_or(base.fit.noise), chosen[i].free,
+                         with_kinks(chosen[i].start, sketch));
     });
     if (!base.has(Term::encoder_missed_counts)) add_lost_counts(base, tried);
     tried = best_per_term(std::move(tried));
@@ -191,17 +189,16 @@ class Explainer {
       if (tried[i].score() < bar) return;
       const Session data = without_jumps(session_, tried[i].jumps);
       const Fit& from = tried[i].fit;
-      tried[i].fit = fit(data, from.model, from.noise, from.free, with_kinks(from.model, fit_options_, 1));
+      tried[i].fit = fit(data, from.model, from.noise, from.free, with_kinks(from.model, fit_options_));
     });
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
   }
 
   /// Contact comes and goes: the cost of a model with a gap has kinks, so slopes are taken over wider steps.
-  static FitOptions with_kinks(const Model& model, FitOptions options, int sweeps) {
+  static FitOptions with_kinks(const Model& model, FitOptions options) {
     if (!model.has(Term::backlash)) return options;
     options.difference_step = kStepOverKinks;
-    options.compass_sweeps = sweeps;
     options.most_rounds = std::min(options.most_rounds, 2);
     options.tolerance = kToleranceOfSketch;
     return options;
@@ -281,7 +278,7 @@ class Explainer {
       if (info(p.id).term != term) free.push_back(p);
     }
     const Session data = without_jumps(session_, without.jumps);
-    without.fit = fit(data, model, from.fit.noise, free, with_kinks(model, fit_options_, 1));
+    without.fit = fit(data, model, from.fit.noise, free, with_kinks(model, fit_options_));
     return without;
   }
 

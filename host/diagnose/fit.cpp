@@ -45,7 +45,6 @@ class Fitter {
   Fit run(const Model& start, const NoiseModel& noise) const {
     Point at{start, bounded(noise), {}, 0};
     evaluate(at);
-    walk(at);
     bool converged = false;
     for (int round = 0; round < options_.most_rounds && !converged; ++round) {
       const double before = at.value;
@@ -73,31 +72,6 @@ class Fitter {
         }
       }
       if (!improved) step *= 0.4;
-    }
-  }
-
-  /// Compass search over the numbers of a two-mass term: contact comes and goes, so its cost is full of kinks
-  /// and its slope at a point says little of what lies a few per cent away.
-  void walk(Point& at) const {
-    double stride = 1;
-    for (int sweep = 0; sweep < options_.compass_sweeps; ++sweep, stride *= 0.6) {
-      for (const FreeParameter& p : free_) {
-        if (info(p.id).term != Term::backlash) continue;
-        for (const double side : {stride, -stride}) {
-          bool moved = false;
-          for (int times = 0; times < 3; ++times) {
-            const double here = at.model[p.id];
-            const double next = p.logarithmic ? here * std::exp(0.3 * side) : here + 1.5 * p.scale * side;
-            Point there{at.model, at.noise, {}, 0};
-            there.model.set(p.id, std::clamp(next, p.lower, p.upper));
-            evaluate(there);
-            if (there.value <= at.value + options_.tolerance) break;
-            at = std::move(there);
-            moved = true;
-          }
-          if (moved) break;
-        }
-      }
     }
   }
 
@@ -279,6 +253,7 @@ double log_likelihood(const std::vector<double>& errors, double outlier) {
 std::vector<double> counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
                                    const FitOptions& options) {
   std::vector<double> all;
+  double log_spread = 0;
   std::size_t rows = 0;
   for (const Recording& recording : session.recordings) rows += recording.size();
   all.reserve(rows);
@@ -288,9 +263,19 @@ std::vector<double> counted_errors(const Session& session, const Model& model, c
   const std::size_t skip = settling_rows(session.rig);
   for (const Recording& recording : session.recordings) {
     const Observation seen = observe(model, gains, session.rig, recording, observer);
-    if (recording.size() > skip) {
-      all.insert(all.end(), seen.error_m.begin() + static_cast<std::ptrdiff_t>(skip), seen.error_m.end());
+    for (std::size_t k = skip; k < seen.error_m.size(); ++k) {
+      if (seen.spread.empty()) {
+        all.push_back(seen.error_m[k]);
+      } else {
+        all.push_back(seen.error_m[k] / seen.spread[k]);
+        log_spread += std::log(seen.spread[k]);
+      }
     }
+  }
+  // Errors of uneven spread count by it; times its geometric mean, so that log L counts sum(log spread) too.
+  if (log_spread != 0) {
+    const double mean = std::exp(log_spread / static_cast<double>(all.size()));
+    for (double& e : all) e *= mean;
   }
   return all;
 }

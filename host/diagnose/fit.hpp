@@ -22,7 +22,6 @@ struct FitOptions {
   int most_iterations = 8;          ///< Levenberg-Marquardt iterations in a round
   double tolerance = 0.1;           ///< stop when the log-likelihood gains less than this
   double finest_noise_step = 0.04;  ///< of the logarithms of the noise, where the pattern search ends
-  int compass_sweeps = 0;           ///< coordinate searches before the first round, for costs with many kinks
   bool move_noise = true;           ///< fit the observer's noise ratio and correlation time alongside
   double difference_step = 2e-3;    ///< of the finite differences, in units of a parameter's scale
   double step_s = 1e-3;             ///< greatest inner step of the plant
@@ -58,6 +57,9 @@ struct PairedDifference {
   double nats = 0, spread = 0;
 };
 PairedDifference paired_difference(const Fit& better, const Fit& worse);
+
+/// A `difference_step` for costs with kinks: contact comes and goes.
+inline constexpr double kStepOverKinks = 0.05;
 
 /// Length of the blocks that losses and scores are summed over.
 inline constexpr double kBlock_s = 0.25;

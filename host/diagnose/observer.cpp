@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "common/model/plant.hpp"
+#include "host/diagnose/two_mass_gain.hpp"
 
 namespace cartwright {
 namespace {
 
 constexpr double kSettling_s = 0.05;
+constexpr double kFinestReading_m = 1e-6;  // where the rig file gives no resolution
 constexpr double kEagerRatio_per_s2 = 1e5;
 /// Corrected every tick, the plant needs no more than its own shape right: w h = 0.45.
 constexpr double kStiffStepFactor = 3;
@@ -45,7 +48,7 @@ ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double dam
   NoiseModel eager = noise;
   eager.disturbance_per_reading_per_s2 = std::max(noise.disturbance_per_reading_per_s2, kEagerRatio_per_s2);
   return {observer_gain(eager, rig.period_s(), damping_per_s),
-          observer_gain(noise, rig.period_s(), damping_per_s)};
+          observer_gain(noise, rig.period_s(), damping_per_s), noise, damping_per_s};
 }
 
 Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig,
@@ -64,9 +67,16 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   const double wavenumber = eccentric ? 2 * std::numbers::pi / model[Parameter::eccentricity_period] : 0;
   const double phase = model[Parameter::eccentricity_phase];
 
+  std::optional<TwoMassGain> two_masses;
+  if (model.has(Term::backlash)) {
+    const double count_m = std::max(rig.encoder_resolution_m, kFinestReading_m);
+    two_masses.emplace(model, gains.noise, rig.period_s(), gains.damping_per_s, count_m);
+  }
+
   Observation out;
   const std::size_t rows = recording.size();
   out.error_m.assign(rows, 0.0);
+  if (two_masses) out.spread.assign(rows, 1.0);
   if (options.keep_states) {
     out.velocity_m_per_s.assign(rows, 0.0);
     out.disturbance_m_per_s2.assign(rows, 0.0);
@@ -78,6 +88,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
     if (elapsed > longest_step) {  // a gap: begin anew behind it, never guess across
       plant.reset(recording.y_m[k], 0, recording.t_s[k]);
       disturbance = 0;
+      if (two_masses) two_masses->restart();
       continue;
     }
     plant.advance(recording.u_V[k - 1], elapsed, disturbance);
@@ -90,10 +101,20 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
       out.velocity_m_per_s[k] = state.velocity_m_per_s;
       out.disturbance_m_per_s2[k] = disturbance;
     }
+    if (two_masses) {
+      const TwoMassGain::Gain gain = two_masses->step(state.contact != 0);
+      out.spread[k] = std::sqrt(gain.error_variance_ratio);
+      disturbance = two_masses->disturbance_decay() * (disturbance + gain.disturbance_per_s2 * error);
+      plant.correct(state.position_m + gain.position * error,
+                    state.velocity_m_per_s + gain.velocity_per_s * error,
+                    state.motor_position_m + gain.motor_position * error,
+                    state.motor_velocity_m_per_s + gain.motor_velocity_per_s * error);
+      continue;
+    }
     const ObserverGain& gain = k < start_rows ? gains.starting : gains.settled;
     disturbance = gain.disturbance_decay * disturbance + gain.disturbance_per_s2 * error;
-    plant.correct_from_reading(state.position_m + gain.position * error,
-                               state.velocity_m_per_s + gain.velocity_per_s * error);
+    plant.correct(state.position_m + gain.position * error,
+                  state.velocity_m_per_s + gain.velocity_per_s * error);
   }
   return out;
 }

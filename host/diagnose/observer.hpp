@@ -10,8 +10,9 @@ namespace cartwright {
 
 /// The one-step prediction errors of one recording and the states they were made from.
 struct Observation {
-  std::vector<double> error_m;               ///< y(k) - predicted y(k) from rows before k; row 0 is 0
-  std::vector<double> velocity_m_per_s;      ///< predicted, before the correction (only if asked for)
+  std::vector<double> error_m;           ///< y(k) - predicted y(k) from rows before k; row 0 is 0
+  std::vector<double> spread;            ///< std of an error over that of the reading; empty: all the same
+  std::vector<double> velocity_m_per_s;  ///< predicted, before the correction (only if asked for)
   std::vector<double> disturbance_m_per_s2;  ///< acceleration the observer had to add (only if asked for)
 };
 
@@ -19,6 +20,8 @@ struct Observation {
 /// settled.
 struct ObserverGains {
   ObserverGain starting, settled;
+  NoiseModel noise;  ///< what they come from
+  double damping_per_s = 0;
 };
 ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double damping_per_s);
 
@@ -36,7 +39,9 @@ struct ObserverOptions {
 ///
 ///     e(k) = y(k) - h(x(k)),   x(k) += K e(k),   v(k) += Kv e(k),   d(k) = phi d(k) + Kd e(k)
 ///
-/// Were model and noise right, e would be white; its mean square is then the likelihood of the recording.
+/// With a gap between motor and cart the gain depends on whether they touch (`TwoMassGain`) and the motor is
+/// corrected apart. Were model and noise right, e would be white; its mean square is then the likelihood of
+/// the recording.
 Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig,
                     const Recording& recording, const ObserverOptions& options = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/diagnose/candidates.hpp"
@@ -12,6 +13,7 @@ struct Promise {
   Model start;
   std::vector<FreeParameter> free;  ///< of the whole model
   double log_likelihood_gain = 0;   ///< predicted by linear regression, nominal numbers refitted alongside
+  std::optional<NoiseModel> noise = {};  ///< where the start has one of its own
 };
 
 /// Predicts, without fitting, how much each candidate start would gain over `base`: its errors differ from
