@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/diagnose/estimate.hpp"
 #include "host/diagnose/held_out.hpp"
 #include "host/diagnose/lost_counts.hpp"
 #include "host/diagnose/statement.hpp"
@@ -34,32 +35,6 @@ constexpr double kEquivalentNats = 10;
 
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
-}
-
-/// Readings of the cart hardly tell how the mass is parted between it and the motor (scan_gaps.cpp), and gap
-/// and shares go with that. On carts of known share the likeliest was up to this far off.
-constexpr double kShareUnknown = 0.1;
-
-double unknown_by_share(const Model& model, Parameter id) {
-  const double share = model[P::backlash_load_share];
-  switch (id) {
-    case P::backlash_gap:
-      return kShareUnknown * model[id] / (1 - share);
-    case P::backlash_load_share:
-      return kShareUnknown;
-    case P::backlash_load_friction_share:
-    case P::backlash_load_damping_share:
-      return kShareUnknown * model[id] / share;
-    default:
-      return 0;
-  }
-}
-
-Estimate estimate(const Fit& fit, Parameter id) {
-  const double half = std::hypot(normal(0.95) * fit.standard_error(id), unknown_by_share(fit.model, id));
-  const ParameterInfo& range = info(id);
-  const double value = fit.model[id];
-  return {value, std::max(value - half, range.lower), std::min(value + half, range.upper)};
 }
 
 /// Gain of the structure that a location map still shows, in nats.
