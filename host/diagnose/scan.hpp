@@ -18,8 +18,9 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
                                  const FitOptions& options);
 
-/// Better starts for a gap than `from`, whose promise said that one is worth looking for: size and shares of
-/// it on a grid, each start judged by the likelihood it has as it stands, best first.
+/// Better starts for a gap than `from`, whose promise said that one is worth looking for: its size with the
+/// mass in equal parts, then along the way on which readings can hardly tell gap and share apart. Best first,
+/// each with the noise it was found with; `options` should take slopes over kinks.
 std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Promise& from,
                                const SessionFacts& facts, const FitOptions& options, unsigned threads);
 
