@@ -6,6 +6,7 @@
 #include "host/cli/command.hpp"
 #include "host/session/even_rows.hpp"
 #include "host/session/import.hpp"
+#include "host/session/join.hpp"
 
 namespace cartwright::cli {
 namespace {
@@ -29,17 +30,32 @@ std::string spacing_in_words(const Recording& recording, const ImportMap& map) {
   return words;
 }
 
+/// A session that stands there already grows; nothing of it is lost.
+Result<Session> with_what_is_there(const Session& imported, const std::filesystem::path& directory) {
+  if (!std::filesystem::exists(directory / "session.toml")) return imported;
+  auto before = read_session(directory);
+  if (!before) return before;
+  auto whole = joined(std::move(*before), imported);
+  if (!whole) return failure(fmt::format("{}: {}", directory.string(), whole.error().message));
+  return whole;
+}
+
 Outcome run(const Options& options) {
   const auto map = read_import_map(options.map);
   if (!map) return tl::unexpected(map.error());
   const auto session = import_session(options.files, *map);
   if (!session) return tl::unexpected(session.error());
-  const auto written = write_session(*session, options.out);
+  const auto whole = with_what_is_there(*session, options.out);
+  if (!whole) return tl::unexpected(whole.error());
+  const auto written = write_session(*whole, options.out);
   if (!written) return tl::unexpected(written.error());
   for (const Recording& recording : session->recordings) {
     fmt::print("{}: {} rows over {:.6g} s at {:.6g} Hz{}\n", recording.file, recording.size(),
                recording.t_s.back() - recording.t_s.front(), session->rig.sample_rate_hz,
                spacing_in_words(recording, *map));
+  }
+  if (whole->recordings.size() > session->recordings.size()) {
+    fmt::print("{} now holds {} recordings\n", options.out, whole->recordings.size());
   }
   return Status::done;
 }
@@ -66,15 +82,15 @@ void add_import(CLI::App& app, int& exit_status) {
       "  encoder_resolution_m = 5e-8\n"
       "  [controller]                              # as in session.toml, optional\n"
       "One radian or one revolution of a rotary rig stands for one metre. Every file becomes a recording of "
-      "the "
-      "session.\nRows keep their own times unless resample_hz is given; what lies unevenly is said. "
+      "the session;\nimported into a session that is there already, they are added to it. Rows keep their "
+      "own times unless resample_hz is given; what lies unevenly is said. "
       "Example:\n"
       "  cartwright import DATA_EMPS.mat DATA_EMPS_PULSES.mat --map emps.toml --out emps");
   auto options = std::make_shared<Options>();
   command->add_option("files", options->files, "files to read (.mat version 4, 5 or 7.3, CSV, or JSON)")
       ->required();
   command->add_option("--map", options->map, "map of channels, units and signs (TOML)")->required();
-  command->add_option("--out", options->out, "directory to write the session to")->required();
+  command->add_option("--out", options->out, "directory of the session, new or to be added to")->required();
   on_run(command, exit_status, [options] { return run(*options); });
 }
 
