@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host/diagnose/basis.hpp"
+#include "host/diagnose/promises.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
@@ -26,9 +27,9 @@ constexpr double kNoiseStepOfSketch = 0.15;
 constexpr double kNearTheBest = 0.7;        // of the best gain
 constexpr double kWorthFinishing = 0.3;     // of the best gain
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise
-/// Two masses cost ten times the time of one: fitted only where they promise to compete.
-constexpr double kLeastShareOfTwoMasses = 0.25;
-constexpr double kOutlierOverNoise = 6.0;  // errors beyond this many noise sizes count linearly
+/// The lines of an encoder stand no nearer to their places than half a count: a smaller error is the encoder
+/// itself, not the way it was mounted.
+constexpr double kLeastEccentricity = 0.5;
 
 class Explainer {
  public:
@@ -97,15 +98,8 @@ class Explainer {
   std::vector<Explanation> next_effects(Search& search, std::size_t stage, double least_gain) {
     const Explanation& base = search.best;
     const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
-    std::vector<Promise> promises =
-        screen(data, base.fit, candidates(base.fit.model, facts_), fit_options_, options_.threads);
-    for (const auto& found : {scan_periods(data, base.fit, facts_, fit_options_, options_.threads),
-                              scan_pushes(data, base.fit, facts_, fit_options_)}) {
-      promises.insert(promises.end(), found.begin(), found.end());
-    }
-    std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
-      return a.log_likelihood_gain > b.log_likelihood_gain;
-    });
+    const std::vector<Promise> promises =
+        all_promises(data, base.fit, facts_, fit_options_, options_.threads);
     if (stage == 0) search.promises = promises;
     std::vector<Promise> chosen = worth_fitting(promises, least_gain, base);
     const auto gap = std::find_if(chosen.begin(), chosen.end(), is_gap);
@@ -175,7 +169,7 @@ class Explainer {
     if (term == Term::cogging) return one.fit.model[Parameter::cogging_period] <= longest_m;
     if (term == Term::encoder_eccentricity) {
       return one.fit.model[Parameter::eccentricity_period] <= longest_m &&
-             one.fit.model[Parameter::eccentricity_amplitude] >= 0.1 * count;
+             one.fit.model[Parameter::eccentricity_amplitude] >= kLeastEccentricity * count;
     }
     if (term == Term::external_disturbance) return inside_its_recording(one.fit.model);
     return true;
@@ -203,8 +197,6 @@ class Explainer {
     options.tolerance = kToleranceOfSketch;
     return options;
   }
-
-  static bool two_masses(Term term) { return term == Term::backlash || term == Term::flexible_coupling; }
 
   static bool slow(const Explanation& one) {
     return std::any_of(one.effects.begin(), one.effects.end(), two_masses);

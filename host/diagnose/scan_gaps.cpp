@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/diagnose/mass_share.hpp"
 #include "host/diagnose/scan.hpp"
 #include "host/parallel.hpp"
 
@@ -46,9 +47,9 @@ Session some_of(const Session& session, double most_s) {
     if (!session.recordings[n].repeat_of.empty()) continue;
     order.push_back({n, reversals_per_s(session.recordings[n], session.rig)});
   }
-  const auto late = [](const Choice& c) { return c.reversals_per_s > kFastestReversals_per_s; };
+  const auto crowded = [](const Choice& c) { return c.reversals_per_s > kFastestReversals_per_s; };
   std::stable_sort(order.begin(), order.end(), [&](const Choice& a, const Choice& b) {
-    return late(a) != late(b) ? late(b) : a.reversals_per_s > b.reversals_per_s;
+    return crowded(a) != crowded(b) ? crowded(b) : a.reversals_per_s > b.reversals_per_s;
   });
   Session some;
   some.rig = session.rig;
@@ -60,21 +61,6 @@ Session some_of(const Session& session, double most_s) {
     if (length_s >= most_s) break;
   }
   return some;
-}
-
-/// The same motion of the cart with another share of the mass on its side. While the teeth are apart the cart
-/// shows its friction and damping over its mass, when they meet the motor's momentum, (1 - share) times its
-/// speed, which the gap let it gather: readings of the cart tell gap (1 - share), friction_share/share and
-/// damping_share/share, and little more.
-Model with_share(Model model, double share) {
-  const double before = model[P::backlash_load_share];
-  const auto part = [&](P id) { return std::min(model[id] * share / before, 1.0); };
-  const double friction = part(P::backlash_load_friction_share),
-               damping = part(P::backlash_load_damping_share);
-  return model.set(P::backlash_gap, model[P::backlash_gap] * (1 - before) / (1 - share))
-      .set(P::backlash_load_share, share)
-      .set(P::backlash_load_friction_share, friction)
-      .set(P::backlash_load_damping_share, damping);
 }
 
 /// Starts with the mass in equal parts: gaps along a line, one line for each way friction and damping may be

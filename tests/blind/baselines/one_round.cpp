@@ -4,13 +4,10 @@
 #include <set>
 
 #include "host/diagnose/basis.hpp"
+#include "host/diagnose/promises.hpp"
 
 namespace cartwright::blind {
 namespace {
-
-constexpr double kOutlierOverNoise = 6.0;  // as the product has it
-constexpr double kLeastShareOfTwoMasses = 0.25;
-constexpr double kStepOverKinks = 0.05;
 
 FitOptions quick(const Fit& base) {
   FitOptions options;
@@ -21,10 +18,6 @@ FitOptions quick(const Fit& base) {
   options.tolerance = 1.0;
   options.finest_noise_step = 0.15;
   return options;
-}
-
-bool two_masses(Term term) {
-  return term == Term::backlash || term == Term::flexible_coupling;
 }
 
 /// The best start of each term, strongest first.
@@ -65,17 +58,7 @@ OneRound one_round(const Session& session, const Fit& base, const std::vector<Pr
 }
 
 OneRound one_round(const Session& session, const Fit& base, std::size_t most_terms) {
-  const SessionFacts facts = facts_of(session);
-  const FitOptions options = quick(base);
-  std::vector<Promise> promises = screen(session, base, candidates(base.model, facts), options, 1);
-  for (const auto& found :
-       {scan_periods(session, base, facts, options, 1), scan_pushes(session, base, facts, options)}) {
-    promises.insert(promises.end(), found.begin(), found.end());
-  }
-  std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
-    return a.log_likelihood_gain > b.log_likelihood_gain;
-  });
-  return one_round(session, base, promises, most_terms);
+  return one_round(session, base, all_promises(session, base, facts_of(session), quick(base), 1), most_terms);
 }
 
 OneRound one_round(const Session& session, const Model& nominal, std::size_t most_terms) {
