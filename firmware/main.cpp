@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include "common/wire/register_map.hpp"
@@ -41,6 +43,7 @@ cartwright::Result<int> start(const cartwright::firmware::Options& options) {
 int main(int argc, char** argv) {
   using cartwright::firmware::Options;
   CLI::App app{"cartwrightd: the controller of a DC-motor cart"};
+  app.name("cartwrightd");
   app.footer(kExamples);
   app.set_version_flag("--version", CARTWRIGHT_VERSION);
   Options options;
@@ -60,8 +63,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (registers) {
-      std::fputs(cartwright::wire::register_map_markdown().c_str(), stdout);
-      return 0;
+      const std::string map = cartwright::wire::register_map_markdown();
+      if (std::fputs(map.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return 0;
+      std::fprintf(stderr, "cartwrightd: standard output cannot be written: %s\n", std::strerror(errno));
+      return 2;
     }
     const auto outcome = start(options);
     if (outcome) return *outcome;

@@ -26,8 +26,31 @@ Result<std::string> read_file(const std::filesystem::path& file) {
 
 namespace {
 
+/// What a rename must replace: the file a link leads to, not the link.
+std::filesystem::path behind_links(const std::filesystem::path& file) {
+  std::error_code dangling;
+  const std::filesystem::path target = std::filesystem::canonical(file, dangling);
+  return dangling ? file : target;
+}
+
 std::filesystem::path part_of(const std::filesystem::path& file) {
-  return file.string() + fmt::format(".part{}", ::getpid());
+  return behind_links(file).string() + fmt::format(".part{}", ::getpid());
+}
+
+/// A device or a pipe, such as /dev/stdout: written to, never replaced.
+bool is_special(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+Result<void> write_special(const std::filesystem::path& file, std::string_view text) {
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  const bool written = out && std::fwrite(text.data(), 1, text.size(), out) == text.size();
+  const bool closed = out && std::fclose(out) == 0;
+  if (written && closed) return {};
+  return failure(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
 }
 
 /// Writes the text to the file's `.part`, which is gone again if that fails.
@@ -39,6 +62,12 @@ Result<void> write_part(const std::filesystem::path& file, std::string_view text
     return failure(
         fmt::format("{}: cannot be written: {}; nothing was written", file.string(), std::strerror(reason)));
   };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    errno = EISDIR;
+    return give_up();
+  }
+  if (is_special(file)) return failure(fmt::format("{}: is no file; nothing was written", file.string()));
   std::FILE* out = std::fopen(part.c_str(), "wb");
   if (!out) return give_up();
   const bool written = std::fwrite(text.data(), 1, text.size(), out) == text.size() &&
@@ -48,7 +77,7 @@ Result<void> write_part(const std::filesystem::path& file, std::string_view text
 }
 
 Result<void> put_in_place(const std::filesystem::path& file) {
-  if (std::rename(part_of(file).c_str(), file.c_str()) == 0) return {};
+  if (std::rename(part_of(file).c_str(), behind_links(file).c_str()) == 0) return {};
   const int reason = errno;
   std::remove(part_of(file).c_str());
   return failure(fmt::format("{}: cannot be put in place: {}", file.string(), std::strerror(reason)));
@@ -57,6 +86,7 @@ Result<void> put_in_place(const std::filesystem::path& file) {
 }  // namespace
 
 Result<void> write_file(const std::filesystem::path& file, std::string_view text) {
+  if (is_special(file)) return write_special(file, text);
   const auto written = write_part(file, text);
   return written ? put_in_place(file) : written;
 }

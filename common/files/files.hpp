@@ -11,7 +11,8 @@ namespace cartwright {
 
 Result<std::string> read_file(const std::filesystem::path& file);
 
-/// Writes beside the file and renames over it: the file is whole or untouched, also on a full disk.
+/// Writes beside the file and renames over it: the file is whole or untouched, also on a full disk. A link
+/// stays one, the file it leads to is replaced; a device or a pipe is written to as it is.
 Result<void> write_file(const std::filesystem::path& file, std::string_view text);
 
 struct NamedText {

@@ -71,14 +71,11 @@ Outcome run(const Options& options) {
   Diagnosis diagnosis = diagnose(*session, *model, how);
   diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks->begin(), remarks->end());
   const std::string json = to_json(diagnosis);
-  const auto made = make_directory(options.out);
-  if (!made) return tl::unexpected(made.error());
-  for (const auto& [file, text] : {std::pair<std::string, std::string>{"diagnosis.json", json},
-                                   {"model.toml", model_with_intervals(diagnosis)},
-                                   {"report.html", diagnosis_page(diagnosis, *session, *model).to_html()}}) {
-    const auto written = write_file(std::filesystem::path(options.out) / file, text);
-    if (!written) return tl::unexpected(written.error());
-  }
+  const auto written =
+      write_files(options.out, {{"diagnosis.json", json},
+                                {"model.toml", model_with_intervals(diagnosis)},
+                                {"report.html", diagnosis_page(diagnosis, *session, *model).to_html()}});
+  if (!written) return tl::unexpected(written.error());
   if (options.json) {
     std::fputs(json.c_str(), stdout);
   } else {

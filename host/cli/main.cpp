@@ -1,7 +1,23 @@
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include "host/cli/command.hpp"
+
+namespace {
+
+/// The exit status of a program whose output got to where it was sent; a full disk shows only here.
+int after_output(int status) {
+  const bool failed_before = std::ferror(stdout) != 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && !failed_before) return status;
+  std::fprintf(stderr, "cartwright: standard output cannot be written: %s\n",
+               flushed ? "is the disk full?" : std::strerror(errno));
+  return static_cast<int>(cartwright::cli::Status::unusable);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace cartwright::cli;
@@ -36,13 +52,14 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
-    return app.exit(request);
+    return after_output(app.exit(request));
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "cartwright: %s; see cartwright --help\n", error.what());
     return static_cast<int>(Status::unusable);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return after_output(0);
     std::fprintf(stderr, "cartwright: %s\n", error.what());
     return static_cast<int>(Status::unusable);
   }
-  return exit_status;
+  return after_output(exit_status);
 }

@@ -1,6 +1,8 @@
 #include "host/session/files.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/small_disk.hpp"
@@ -56,6 +58,38 @@ TEST_F(Files, SayWhyTheyCannotBeWritten) {
   const auto written = write_files(directory_ / "file" / "in_it", kTwo);
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("Not a directory"), std::string::npos) << written.error().message;
+}
+
+TEST_F(Files, ReplaceWhatALinkLeadsTo) {
+  ASSERT_TRUE(write_file(directory_ / "file", "before"));
+  fs::create_symlink("file", directory_ / "link");
+  ASSERT_TRUE(write_file(directory_ / "link", "after"));
+  EXPECT_TRUE(fs::is_symlink(directory_ / "link"));
+  EXPECT_EQ(read_file(directory_ / "file").value(), "after");
+}
+
+TEST_F(Files, LeaveDevicesAndPipesWhatTheyAre) {
+  const fs::path pipe = directory_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  EXPECT_TRUE(write_file(pipe, "text"));
+  std::string got(8, '\0');
+  EXPECT_EQ(::read(reader, got.data(), got.size()), 4);
+  ::close(reader);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  const auto among_others = write_files(directory_, {{"small", "text"}, {"pipe", "text"}});
+  ASSERT_FALSE(among_others);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(Files, RefuseADirectoryBeforeAnythingIsWritten) {
+  fs::create_directory(directory_ / "large");
+  const auto written = write_files(directory_, kTwo);
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find("Is a directory"), std::string::npos) << written.error().message;
+  EXPECT_EQ(entries(), 1u);
 }
 
 }  // namespace
