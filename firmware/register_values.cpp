@@ -280,6 +280,9 @@ std::string RegisterFile::text(Id id, const Status& s, const RecordingEntry& rec
   }
   if (own_ack_ != wire::Ack::none) return own_text_;
   if (!exchange_.requests.empty() || s.ack != wire::Ack::refused) return {};
+  if (s.reason == wire::Reason::wrong_state && s.state == wire::State::faulted) {
+    return "the controller is faulted; the command reset ends that, fetch the log first";
+  }
   if (s.reason == wire::Reason::wrong_state) {
     return fmt::format("the controller is {}: {}", wire::name(s.state), wire::words(s.reason));
   }

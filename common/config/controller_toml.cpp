@@ -5,12 +5,34 @@
 #include "common/config/toml_text.hpp"
 
 namespace cartwright {
+namespace {
+
+/// A key of the rig with another unit at its end, such as encoder_resolution_mm, is refused: passed over it
+/// would leave the rig another than its file says. Keys of other programs may stand there.
+Result<void> refuse_other_units(const TomlReader& rig) {
+  constexpr std::string_view kKeys[] = {"sample_rate_hz", "encoder_resolution_m", "voltage_limit_V",
+                                        "travel_m"};
+  for (const auto& [node_key, node] : rig.raw()) {
+    const std::string_view key = node_key.str();
+    const auto same_quantity = [key](std::string_view known) {
+      return key != known && key.substr(0, key.rfind('_')) == known.substr(0, known.rfind('_'));
+    };
+    for (const std::string_view known : kKeys) {
+      if (same_quantity(known))
+        return failure(fmt::format("{}: {} must be given as {}", rig.where(key), key, known));
+    }
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<Rig> rig_from_toml(const TomlReader& root) {
   const auto table = root.table("rig");
   if (!table) return tl::unexpected(table.error());
   if (!*table) return failure(fmt::format("{}: no [rig] table", root.source()));
   const TomlReader& entry = **table;
+  if (const auto units = refuse_other_units(entry); !units) return tl::unexpected(units.error());
   Rig rig;
   const auto name = entry.text("name", rig.name);
   if (!name) return tl::unexpected(name.error());

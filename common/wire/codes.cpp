@@ -90,7 +90,7 @@ constexpr std::array<Entry, kAckCount> kAcks{{
 
 constexpr std::array<Entry, kReasonCount> kReasons{{
     {"none", "not refused"},
-    {"wrong_state", "the controller is not in the state this command needs"},
+    {"wrong_state", "this command needs another state"},
     {"fault_present", "a fault condition is present; it must go away first"},
     {"bad_setup", "the experiment cannot be run as it is set up"},
     {"bad_slot", "that gain slot holds no valid gains"},

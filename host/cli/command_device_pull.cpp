@@ -24,7 +24,8 @@ Outcome pull_into(device::Controller& controller, device::Range range, const std
   if (!written) return tl::unexpected(written.error());
   std::size_t rows = 0;
   for (const Recording& recording : fetched->session.recordings) rows += recording.size();
-  fmt::print("{}: {} recordings, {} rows\n", directory, fetched->session.recordings.size(), rows);
+  const std::size_t count = fetched->session.recordings.size();
+  fmt::print("{}: {} recording{}, {} rows\n", directory, count, count == 1 ? "" : "s", rows);
   for (const std::string& loss : fetched->losses) fmt::print("lost: {}\n", loss);
   return Status::done;
 }

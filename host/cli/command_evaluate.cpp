@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
+#include "host/cli/gap_note.hpp"
 #include "host/evaluate/evaluate.hpp"
 #include "host/session/files.hpp"
 
@@ -49,6 +50,7 @@ Outcome run(const Options& options) {
   if (!model) return tl::unexpected(model.error());
   const auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
+  tell_gaps(*session);
 
   std::vector<Prediction> predictions;
   std::vector<NamedText> files;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/cli/command.hpp"
+#include "host/cli/gap_note.hpp"
 #include "host/cli/identify_output.hpp"
 #include "host/session/files.hpp"
 
@@ -124,6 +125,7 @@ Outcome run(const Options& options, const CLI::App& command) {
   if (const auto fits = check_belongs(command, options.form); !fits) return tl::unexpected(fits.error());
   const auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
+  tell_gaps(*session);
   return options.form == "recorded" ? run_recorded(options, *session) : run_step(options, *session);
 }
 

@@ -26,7 +26,7 @@ std::string spacing_in_words(const Recording& recording, const ImportMap& map) {
     words = fmt::format(", unevenly {:.4g} to {:.4g} ms apart: kept with their own times",
                         1e3 * spacing.least_s, 1e3 * spacing.most_s);
   }
-  if (spacing.gaps > 0) words += fmt::format(", with {} gaps", spacing.gaps);
+  if (spacing.gaps > 0) words += fmt::format(", with {} gap{}", spacing.gaps, spacing.gaps == 1 ? "" : "s");
   return words;
 }
 
@@ -81,9 +81,12 @@ void add_import(CLI::App& app, int& exit_status) {
       "  [rig]                                     # as in session.toml, every key optional\n"
       "  encoder_resolution_m = 5e-8\n"
       "  [controller]                              # as in session.toml, optional\n"
-      "One radian or one revolution of a rotary rig stands for one metre. Every file becomes a recording of "
-      "the session;\nimported into a session that is there already, they are added to it. Rows keep their "
-      "own times unless resample_hz is given; what lies unevenly is said. "
+      "One radian or one revolution of a rotary rig stands for one metre. Every file becomes a recording of
+      "
+      "the session; imported into a session that is there already, they are added to it. Rows keep their own
+      "
+      "times unless resample_hz is given; what lies unevenly is said.
+      "
       "Example:\n"
       "  cartwright import DATA_EMPS.mat DATA_EMPS_PULSES.mat --map emps.toml --out emps");
   auto options = std::make_shared<Options>();

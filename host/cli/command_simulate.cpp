@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "host/cli/command.hpp"
+#include "host/cli/gap_note.hpp"
 #include "host/evaluate/closed_loop.hpp"
 #include "host/session/files.hpp"
 
@@ -17,6 +18,7 @@ Outcome run(const Options& options) {
   if (!model) return tl::unexpected(model.error());
   auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
+  tell_gaps(*session);
   for (Recording& recording : session->recordings) recording = simulate(*model, session->rig, recording);
   const auto written = write_session(*session, options.out);
   if (!written) return tl::unexpected(written.error());

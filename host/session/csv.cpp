@@ -96,8 +96,11 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
         }
         const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
         if (error != std::errc{} || end != cell.data() + cell.size()) {
+          std::string shown(cell.substr(0, 40));
+          std::replace_if(
+              shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
           problem = fmt::format("{}:{}: {} is '{}', a number is needed", source, line_number,
-                                table.names[column], cell.substr(0, 40));
+                                table.names[column], shown);
           return false;
         }
       }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include "host/session/session.hpp"
 
 namespace cartwright {
 
@@ -17,5 +20,8 @@ struct Gap {
 /// What lies between the `segments` of a recording, in words a person or another program can use. `time_s`
 /// increases strictly.
 std::vector<Gap> find_gaps(const std::vector<double>& time_s);
+
+/// The gaps of every recording that has some, a line for each recording.
+std::vector<std::string> gaps_in_words(const Session& session);
 
 }  // namespace cartwright

@@ -191,6 +191,11 @@ Result<ImportMap> read_import_map(const std::filesystem::path& file) {
     map.travel_given = rig_table->contains("travel_m");
     if (!map.rate_given) rig_table->insert("sample_rate_hz", Rig{}.sample_rate_hz);
   }
+  if (const auto section = root.table("rig"); section && *section) {
+    const auto only =
+        (*section)->only({"name", "sample_rate_hz", "encoder_resolution_m", "voltage_limit_V", "travel_m"});
+    if (!only) return tl::unexpected(only.error());
+  }
   const auto rig = rig_from_toml(root);
   if (!rig) return tl::unexpected(rig.error());
   map.rig = *rig;

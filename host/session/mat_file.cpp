@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <matio.h>
 
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 
 namespace cartwright {
 
@@ -75,6 +78,9 @@ bool is_numeric(const matvar_t& variable) {
 }  // namespace
 
 Result<MatFile> MatFile::open(const std::filesystem::path& file) {
+  if (!std::ifstream(file)) {
+    return failure(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+  }
   mat_t* mat = Mat_Open(file.c_str(), MAT_ACC_RDONLY);
   if (mat == nullptr) {
     return failure(fmt::format("{}: not a readable MATLAB file (version 4, 5 or 7.3)", file.string()));

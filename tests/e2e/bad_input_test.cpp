@@ -70,6 +70,10 @@ std::vector<BadSession> bad_sessions() {
       {"travel the wrong way round",
        "[rig]\nsample_rate_hz = 1000\ntravel_m = [1, -1]\n" + std::string(kRecording), csv()},
       {"a negative rate", "[rig]\nsample_rate_hz = -1\n" + std::string(kRecording), csv()},
+      {"a rate that the time stamps contradict", "[rig]\nsample_rate_hz = 500\n" + std::string(kRecording),
+       csv()},
+      {"an encoder in another unit",
+       std::string(kRig) + "encoder_resolution_mm = 0.02\n" + std::string(kRecording), csv()},
       {"a key given twice", "[rig]\nsample_rate_hz = 1000\nsample_rate_hz = 500\n" + std::string(kRecording),
        csv()},
       {"a controller of two kinds",
@@ -252,6 +256,45 @@ TEST(BadInput, AFullDiskLeavesNothingBehind) {
     const std::string out = std::string("out_") + command.name;
     expect_refused(command.arguments(scratch.text("session"), scratch.text("model.toml"), scratch.text(out)),
                    scratch / out);
+  }
+}
+
+TEST(BadInput, StandardOutputThatCannotBeWrittenIsSaid) {
+  const Scratch scratch;
+  scratch.put("model.toml", kModel);
+  scratch.put("session/session.toml", std::string(kRig) + kRecording);
+  scratch.put("session/step.csv", csv());
+  const std::string programs[] = {
+      std::string(CARTWRIGHT_PROGRAM) + " completion bash", std::string(CARTWRIGHT_PROGRAM) + " --help",
+      std::string(CARTWRIGHTD_PROGRAM) + " --registers",
+      std::string(CARTWRIGHT_PROGRAM) + " identify --json --terms viscous_friction --session " +
+          scratch.text("session") + " --out " + scratch.text("found.toml")};
+  for (const std::string& program : programs) {
+    SCOPED_TRACE(program);
+    const Finished finished = run("/bin/sh", {"-c", program + " >/dev/full"});
+    EXPECT_EQ(finished.status, 2);
+    EXPECT_THAT(finished.err, testing::HasSubstr("standard output cannot be written"));
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+}
+
+TEST(BadInput, MissingRowsAreSaid) {
+  const Scratch scratch;
+  scratch.put("model.toml", kModel);
+  scratch.put("session/session.toml", std::string(kRig) + kRecording);
+  std::string text = csv();
+  const auto line = [&text](const char* start) { return text.find(std::string("\n") + start) + 1; };
+  text.erase(line("0.700000"), line("0.800000") - line("0.700000"));
+  scratch.put("session/step.csv", text);
+  for (const SessionCommand& command : kSessionCommands) {
+    const std::string_view name = command.name;
+    if (name != "simulate" && name != "evaluate" && name != "identify") continue;
+    const Finished finished = cartwright(command.arguments(
+        scratch.text("session"), scratch.text("model.toml"), scratch.text("out_") + command.name));
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    EXPECT_EQ(finished.err,
+              "cartwright: note: step.csv: 100 rows are missing in 1 gap, the first after t_s = 0.699\n")
+        << name;
   }
 }
 

@@ -171,6 +171,8 @@ TEST_F(ImportTest, WrongUnitsAreRefused) {
               HasSubstr("milliseconds"));
   EXPECT_THAT(message(good + "[rig]\nsample_rate_hz = 500\n"), HasSubstr("implies 1000 Hz"));
   EXPECT_THAT(message(good + "[rig]\nvoltage_limit_V = 0.5\n"), HasSubstr("u_V"));
+  EXPECT_THAT(message(good + "[rig]\nencoder_resolution_um = 5\n"),
+              HasSubstr("unknown key encoder_resolution_um"));
   EXPECT_THAT(message("[channels]\nu_V = \"v\"\ny_m = \"q\"\n"), HasSubstr("one must give the time"));
   EXPECT_THAT(message("[channels]\nt_s = \"t\"\ny_m = \"q\"\n"), HasSubstr("no u_V"));
   EXPECT_THAT(message(good + "[controller]\ntype = \"pd\"\nkp_V_per_m = 60\n"), HasSubstr("r_m"));
@@ -205,6 +207,9 @@ TEST_F(ImportTest, ABrokenMatlabFileIsRefused) {
   const auto opened = MatFile::open(file);
   ASSERT_FALSE(opened);
   EXPECT_THAT(opened.error().message, HasSubstr("not a readable MATLAB file"));
+  const auto absent = MatFile::open(directory_ / "absent.mat");
+  ASSERT_FALSE(absent);
+  EXPECT_THAT(absent.error().message, HasSubstr("No such file"));
 }
 
 }  // namespace

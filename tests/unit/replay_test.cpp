@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/model/plant.hpp"
+#include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/evaluate.hpp"
 #include "host/session/segments.hpp"
 
@@ -103,6 +104,50 @@ TEST(Replay, WindowsNeverCrossAGap) {
   ASSERT_EQ(segments(recording.t_s).size(), 2u);
   EXPECT_LT(squared_error(replay_windows(cart(), recording), recording.y_m).rms_m(), 2e-6);
   EXPECT_LT(open_loop_error(replay_open_loop(cart(), recording), recording).rms_m(), 2e-5);
+}
+
+/// A step that is simulated, then robbed of the rows between 0.15 s and 0.25 s.
+struct RobbedStep {
+  Recording whole, robbed;
+  std::size_t first = 150, last = 250;
+  ClosedLoopOptions exact;
+
+  RobbedStep() {
+    exact.quantise = false;
+    whole.file = "step.csv";
+    whole.controller = PdGains{60, 2, 50};
+    for (int tick = 0; tick < 1000; ++tick) whole.t_s.push_back(1e-3 * tick);
+    whole.y_m.assign(whole.t_s.size(), 0);
+    whole.u_V = whole.y_m;
+    whole.r_m.assign(whole.t_s.size(), 0.1);
+    whole = simulate(cart(), Rig{}, whole, exact);
+    robbed = whole;
+    for (auto* column : {&robbed.t_s, &robbed.r_m, &robbed.y_m, &robbed.u_V}) {
+      column->erase(column->begin() + static_cast<std::ptrdiff_t>(first),
+                    column->begin() + static_cast<std::ptrdiff_t>(last));
+    }
+    robbed.other_columns.clear();
+  }
+};
+
+TEST(Replay, TheControllerTicksOnWhereRowsAreLost) {
+  const RobbedStep step;
+  const Recording again = simulate(cart(), Rig{}, step.robbed, step.exact);
+  for (std::size_t row = step.first; row < again.size(); ++row)
+    ASSERT_NEAR(again.y_m[row], step.whole.y_m[row + 100], 1e-9) << row;
+}
+
+TEST(Replay, TheCommandHoldsOverTicksThatWereMissed) {
+  RobbedStep step;
+  std::vector<double>& missed = step.robbed.other_columns["missed_ticks"];
+  missed.assign(step.robbed.size(), 0);
+  missed[step.first] = 100;
+  const Recording again = simulate(cart(), Rig{}, step.robbed, step.exact);
+  Plant plant(cart());
+  plant.reset(again.y_m[step.first - 1], again.other_columns.at("truth_v_m_per_s")[step.first - 1]);
+  plant.advance(again.u_V[step.first - 1], 0.101);
+  EXPECT_NEAR(again.y_m[step.first], plant.state().position_m, 1e-9);
+  EXPECT_GT(std::abs(again.y_m[step.first] - step.whole.y_m[step.last]), 1e-3);
 }
 
 TEST(Replay, AForeignRecordingHasNoClosedLoop) {
