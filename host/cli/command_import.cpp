@@ -81,12 +81,10 @@ void add_import(CLI::App& app, int& exit_status) {
       "  [rig]                                     # as in session.toml, every key optional\n"
       "  encoder_resolution_m = 5e-8\n"
       "  [controller]                              # as in session.toml, optional\n"
-      "One radian or one revolution of a rotary rig stands for one metre. Every file becomes a recording of
-      "
-      "the session; imported into a session that is there already, they are added to it. Rows keep their own
-      "
-      "times unless resample_hz is given; what lies unevenly is said.
-      "
+      "One radian or one revolution of a rotary rig stands for one metre. Every file becomes a recording of\n"
+      "the session; imported into a session that is there already, they are added to it. Rows keep their "
+      "own\n"
+      "times unless resample_hz is given; what lies unevenly is said.\n"
       "Example:\n"
       "  cartwright import DATA_EMPS.mat DATA_EMPS_PULSES.mat --map emps.toml --out emps");
   auto options = std::make_shared<Options>();
