@@ -2,25 +2,12 @@
 
 #include <Eigen/Dense>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "host/identify/interval_sums.hpp"
 #include "host/identify/quadratic_program.hpp"
 
 namespace cartwright {
-
-/// One response for the double-integral form of
-///
-///     y'' + C(t) y' + k s = 0.
-///
-/// With s = y = e (the control error at constant reference) this is Eq. (60) of Wongvanich, Hann and Sirisena
-/// (2015), k = beta Kp. With s = -u, the recorded voltage, k = beta and neither constant reference nor ideal
-/// controller is needed (ERRATA, Sec. 2.2).
-struct IntegralData {
-  std::span<const double> t_s;   ///< strictly increasing
-  std::span<const double> y_m;   ///< straight lines between samples
-  std::span<const double> held;  ///< s, held from each sample to the next; empty: s = y
-};
 
 /// Constant damping (Eq. 51-53): y(t) = y0 + alpha0 t - c I(t) - k J(t) in least squares, I = int y, J = int
 /// int s.
@@ -82,11 +69,15 @@ class PiecewiseForm {
   Factored factored() const;
 
   template <typename Visit>
-  void each_sample(Visit&& visit) const;
+  void each_sample_of(std::size_t interval, Visit&& visit) const;
+
+  /// Calls visit(interval, W): (y, alpha, c, k) at the start of an interval are W times the unknowns.
+  template <typename Visit>
+  void each_interval(Visit&& visit) const;
 
   IntegralData data_;
   std::vector<std::size_t> boundaries_;
-  std::vector<Eigen::MatrixXd> local_;  ///< 4 x (n + 3): (y, alpha, c, k) of an interval from the unknowns
+  std::vector<RunningIntegrals> at_end_;  ///< of each interval
   Eigen::MatrixXd H_;
   Eigen::VectorXd g_;
 };

@@ -85,8 +85,9 @@ double KktResidual::greatest() const {
 KktResidual kkt_residual(const MatrixXd& H, const VectorXd& g, const MatrixXd& G, const VectorXd& h,
                          const VectorXd& x, const VectorXd& multipliers) {
   KktResidual out;
-  const double force = std::max({(H * x).cwiseAbs().maxCoeff(), g.cwiseAbs().maxCoeff(), 1e-300});
-  VectorXd pull = H * x - g;
+  VectorXd pull = H * x;
+  const double force = std::max({pull.cwiseAbs().maxCoeff(), g.cwiseAbs().maxCoeff(), 1e-300});
+  pull -= g;
   if (G.rows() > 0) {
     pull -= G.transpose() * multipliers;
     const VectorXd slack = G * x - h;

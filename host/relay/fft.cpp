@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/relay/vector_clones.hpp"
+#include "host/vector_clones.hpp"
 
 namespace cartwright {
 namespace {

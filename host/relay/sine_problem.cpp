@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/relay/vector_clones.hpp"
+#include "host/vector_clones.hpp"
 #include "host/relay/vector_sums.hpp"
 
 namespace cartwright {

@@ -9,7 +9,7 @@
 #include "host/relay/periodogram.hpp"
 #include "host/relay/sine_intervals.hpp"
 #include "host/relay/sine_problem.hpp"
-#include "host/relay/vector_clones.hpp"
+#include "host/vector_clones.hpp"
 #include "host/relay/vector_sums.hpp"
 
 namespace cartwright {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/relay/vector_clones.hpp"
+#include "host/vector_clones.hpp"
 
 namespace cartwright {
 
