@@ -183,7 +183,10 @@ Result<int> serve(const RigFile& rig, const hal::Devices& devices, Machine& mach
 }  // namespace
 
 Result<RigFile> load_rig(const Options& options) {
-  if (options.rig_file.empty()) return failure("--rig FILE is needed; an example lies in firmware/examples");
+  if (options.rig_file.empty())
+    return failure(
+        "--rig FILE is needed; examples are in share/doc/cartwright/examples, or firmware/examples of the "
+        "source");
   auto rig = read_rig_file(options.rig_file);
   if (!rig) return rig;
   if (options.virtual_time) rig->virtual_time = true;
@@ -194,6 +197,7 @@ Result<RigFile> load_rig(const Options& options) {
 Result<int> run(const Options& options, const RigFile& rig, const hal::Devices& devices) {
   auto gains = GainStore::open(rig.gain_file);
   if (!gains) return tl::unexpected(gains.error());
+  for (const std::string& doubt : gains->doubts()) std::fprintf(stderr, "cartwrightd: %s\n", doubt.c_str());
   const auto machine = std::make_unique<Machine>(rig, devices, *gains);
   catch_signals();
   if (!rig.virtual_time) {

@@ -71,9 +71,17 @@ Result<GainStore> GainStore::open(const std::filesystem::path& file) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
   std::istringstream lines(*text);
+  int number_of_line = 0;
   for (std::string line; std::getline(lines, line);) {
-    if (const auto parsed = parse(line))
+    ++number_of_line;
+    if (const auto parsed = parse(line)) {
       store.slots_[static_cast<std::size_t>(parsed->number - 1)] = parsed->slot;
+    } else {
+      store.doubts_.push_back(
+          fmt::format("{}:{}: checksum or bounds are wrong, these gains are not used; cartwright device "
+                      "gains flash writes them anew",
+                      file.string(), number_of_line));
+    }
   }
   for (const int number : {1, 2}) {
     const auto& slot = store.slot(number);

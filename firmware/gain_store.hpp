@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/control/pid.hpp"
 #include "common/result.hpp"
@@ -28,6 +29,8 @@ class GainStore {
   const std::optional<GainSlot>& slot(int number) const {
     return slots_[static_cast<std::size_t>(number - 1)];
   }
+  /// A sentence for every line of the file that was not believed.
+  const std::vector<std::string>& doubts() const { return doubts_; }
   /// 1 or 2; 0 while neither slot is valid.
   int active() const { return active_; }
 
@@ -40,6 +43,7 @@ class GainStore {
  private:
   std::filesystem::path file_;
   std::array<std::optional<GainSlot>, 2> slots_;
+  std::vector<std::string> doubts_;
   int active_ = 0;
 };
 

@@ -72,7 +72,7 @@ Outcome get(const device::Address& address, bool json) {
   for (int i = 0; i < 2; ++i) {
     const PidGains gains = gains_at(*block, kSlots[i].kp);
     if (!block->flag(kSlots[i].valid)) {
-      fmt::print("# Slot {}: empty.\n", i + 1);
+      fmt::print("# Slot {}: no valid gains.\n", i + 1);
     } else {
       fmt::print("# Slot {}: generation {}, kp {} V/m, {}kd {} V s/m, filter {} Hz.\n", i + 1,
                  block->value(kSlots[i].generation), gains.pd.kp_V_per_m, integral_text(gains),

@@ -10,7 +10,8 @@ endif()
 execute_process(COMMAND dpkg-deb --contents ${packages} OUTPUT_VARIABLE contents COMMAND_ERROR_IS_FATAL ANY)
 foreach(path
     bin/cartwright bin/cartwrightd lib/systemd/system/cartwrightd.service share/bash-completion/completions/cartwright
-    share/doc/cartwright/examples/simulated.toml share/man/man1/cartwright.1 share/man/man5/cartwright-model.5
+    share/doc/cartwright/copyright share/doc/cartwright/examples/simulated.toml share/doc/cartwright/examples/cart.toml
+    share/doc/cartwright/examples/maps/emps.toml share/man/man1/cartwright.1 share/man/man5/cartwright-model.5
     share/man/man5/cartwright-registers.5 share/man/man5/cartwright-session.5 share/man/man8/cartwrightd.8)
   if(NOT contents MATCHES " [1-9][0-9]+ [^\n]* \\./usr/${path}\n")
     message(SEND_ERROR "not in the package, or empty: /usr/${path}")

@@ -53,6 +53,8 @@ TEST_F(GainFile, ASlotWithOneWrongByteIsNotBelievedAndTheOtherTakesOver) {
   EXPECT_FALSE(again.slot(2));
   EXPECT_EQ(again.active(), 1);
   EXPECT_EQ(again.slot(1)->gains.pd.kp_V_per_m, 60);
+  ASSERT_EQ(again.doubts().size(), 1u);
+  EXPECT_NE(again.doubts()[0].find(":2: checksum"), std::string::npos) << again.doubts()[0];
 }
 
 TEST_F(GainFile, GainsOutOfBoundsChangeNothing) {
