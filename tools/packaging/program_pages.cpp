@@ -3,6 +3,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tools/packaging/markdown.hpp"
 #include "tools/packaging/pages.hpp"
 #include "tools/packaging/roff.hpp"
 
@@ -70,7 +71,7 @@ std::string program_page(const std::string& program) {
   return page.text();
 }
 
-std::string daemon_page(const std::string& program) {
+std::string daemon_page(const std::string& program, const std::string& readme) {
   Page page("cartwrightd", 8, "the controller of a DC-motor cart");
   page.section("SYNOPSIS").paragraph("cartwrightd --rig FILE [OPTIONS]");
   page.section("DESCRIPTION")
@@ -79,20 +80,7 @@ std::string daemon_page(const std::string& program) {
           "time, others may read; cartwright device is one such client. A fault puts zero volts out within "
           "the same tick, stays until it is reset, freezes the log and says in words what happened.")
       .verbatim(help_of(program));
-  page.section("RIG FILE")
-      .paragraph(
-          "TOML. [rig] has name, sample_rate_hz, encoder_resolution_m, voltage_limit_V and travel_m as in "
-          "cartwright-session(5), and")
-      .item("kind", "\"simulated\": the cart of [simulation]")
-      .item("clock", "\"real\", or \"virtual\": as fast as the machine computes")
-      .item("require_realtime", "refuse a real rig without real-time priority and locked memory (true)")
-      .item("listen, port", "where Modbus is served (127.0.0.1, 1502)")
-      .item("gain_file", "where gains are kept, beside the rig file")
-      .item("slew_limit_V_per_s, travel_margin_m, greatest_speed_m_per_s", "limits of the supervisor")
-      .item("host_timeout_s, most_missed_ticks", "when a lost host and missed ticks become faults")
-      .paragraph(
-          "[simulation] has model (a file of cartwright-model(5), or a [model] table here), seed, "
-          "start_position_m and end_stop_m. Complete examples are installed with the documentation.");
+  add_markdown(page, readme, {"States, faults", "An experiment", "The rig file", "Log"});
   page.section("AS A SERVICE")
       .paragraph("The unit cartwrightd.service reads /etc/cartwright/rig.toml and does not start without it:")
       .verbatim(
