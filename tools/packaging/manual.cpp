@@ -1,5 +1,6 @@
 // Writes one man page to standard output: `manual PAGE [PROGRAM] [README]`.
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -16,7 +17,7 @@ std::string content(const std::string& file) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace cartwright::packaging;
   const std::string_view page = argc > 1 ? argv[1] : "";
   const std::string first = argc > 2 ? argv[2] : "", second = argc > 3 ? argv[3] : "";
@@ -31,4 +32,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() ? 0 : 2;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "manual: %s\n", error.what());
+  return 2;
 }
