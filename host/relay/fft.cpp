@@ -1,6 +1,7 @@
 #include "host/relay/fft.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -36,8 +37,8 @@ struct Roots {
   std::size_t order;
 };
 
-/// Roots and work space of the last size a thread has transformed: records of one length come in a row, and
-/// both take longer to make than the transform itself.
+/// Roots and work space of a size that a thread has transformed before: records of one length come in a row,
+/// and both take longer to make than the transform itself.
 struct Plan {
   std::size_t size = 0;
   std::vector<float> wr, wi, xr, xi, yr, yi;
@@ -160,7 +161,10 @@ CARTWRIGHT_VECTOR_CLONES void unpack(std::size_t n, Roots w, const float* __rest
 }  // namespace
 
 Spectrum real_spectrum(const std::vector<float>& samples, std::size_t size) {
-  static thread_local Plan plan;
+  // Two sizes take turns over a record: the padded one that looks for peaks, and that of what is left.
+  static thread_local std::array<Plan, 2> plans;
+  if (plans[0].size != size) std::swap(plans[0], plans[1]);
+  Plan& plan = plans[0];
   plan.prepare(size);
   const std::size_t n = size / 2;
   float* xr = plan.xr.data();

@@ -31,7 +31,7 @@ class RelativeDensity {
     const double unit = 1 / std::sqrt(power / samples_);
     for (double& value : scaled) value *= unit;
     std::size_t size = 64;
-    while (size < 2 * grid.size) size *= 2;  // as the periodogram: the transform keeps what one size needs
+    while (size < grid.size) size *= 2;  // a mean over bins needs none in between
     spectrum_ = real_spectrum(grid.spread(problem, scaled), size);
     bin_hz_ = 1 / (static_cast<double>(size) * grid.spacing_s);
   }
@@ -43,9 +43,11 @@ class RelativeDensity {
     bins = 0;
     for (int j = -8; j <= 8; ++j) {
       const double f = centre_hz + j / record_s_;
-      // The fit has emptied the bins at its own frequency and at zero.
-      if (f * record_s_ < 0.99 || f > highest_hz || std::abs(f - sine_hz) * record_s_ < 1.5) continue;
+      if (f < 0 || f > highest_hz) continue;
       const auto k = std::min(static_cast<std::size_t>(std::lround(f / bin_hz_)), spectrum_.real.size() - 1);
+      // The fit has emptied the bins at its own frequency and at zero.
+      const double at_hz = static_cast<double>(k) * bin_hz_;
+      if (at_hz * record_s_ < 0.9 || std::abs(at_hz - sine_hz) * record_s_ < 1.5) continue;
       const double re = static_cast<double>(spectrum_.real[k]),
                    im = static_cast<double>(spectrum_.imaginary[k]);
       mean += (re * re + im * im) / samples_;

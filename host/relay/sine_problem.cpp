@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/vector_clones.hpp"
 #include "host/relay/vector_sums.hpp"
+#include "host/vector_clones.hpp"
 
 namespace cartwright {
 namespace {
@@ -14,20 +14,43 @@ namespace {
 constexpr std::size_t kBlock = 256;
 constexpr double kPi = std::numbers::pi;
 
-/// Taylor coefficients of sin(pi r)/r and cos(pi r) in powers of r^2. |r| <= 1/2: eleven terms reach 2e-17.
-constexpr std::size_t kTerms = 11;
-constexpr std::array<double, kTerms> taylor(bool cosine) {
-  std::array<double, kTerms> out{};
+/// Coefficients of sin(pi r)/r or cos(pi r) in powers of z = r^2, for |r| <= 1/2: the Taylor series, eleven
+/// terms of which reach 2e-17, economised to fewer (Lanczos): of its last power, the multiple of the
+/// Chebyshev polynomial T*(4 z) that cancels it is taken away, which is nowhere greater than 1.
+template <std::size_t kTerms>
+constexpr std::array<double, kTerms> economised(bool cosine) {
+  constexpr std::size_t kTaylor = 13;
+  std::array<double, kTaylor> c{};
   double term = cosine ? 1 : kPi;
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    out[i] = term;
+  for (std::size_t i = 0; i < kTaylor; ++i) {
+    c[i] = term;
     const double n = static_cast<double>(2 * i) + (cosine ? 1 : 2);
     term *= -kPi * kPi / (n * (n + 1));
   }
+  // T*_n(x) on [0, 1]: T*_0 = 1, T*_1 = 2 x - 1, T*_(n+1) = (4 x - 2) T*_n - T*_(n-1).
+  std::array<std::array<double, kTaylor>, kTaylor> chebyshev{};
+  chebyshev[0][0] = 1;
+  chebyshev[1][0] = -1, chebyshev[1][1] = 2;
+  for (std::size_t n = 2; n < kTaylor; ++n) {
+    for (std::size_t i = 0; i <= n; ++i) {
+      chebyshev[n][i] =
+          (i > 0 ? 4 * chebyshev[n - 1][i - 1] : 0) - 2 * chebyshev[n - 1][i] - chebyshev[n - 2][i];
+    }
+  }
+  for (std::size_t last = kTaylor - 1; last >= kTerms; --last) {
+    // In powers of x = 4 z the coefficient of x^i is c_i / 4^i.
+    double share = c[last] / chebyshev[last][last];
+    for (std::size_t i = last; i > 0; --i) share /= 4;
+    double power = 1;
+    for (std::size_t i = 0; i <= last; ++i, power *= 4) c[i] -= share * chebyshev[last][i] * power;
+  }
+  std::array<double, kTerms> out{};
+  for (std::size_t i = 0; i < kTerms; ++i) out[i] = c[i];
   return out;
 }
-constexpr auto kSine = taylor(false);
-constexpr auto kCosine = taylor(true);
+/// As few as keep the error of one below rounding.
+constexpr auto kSine = economised<9>(false);
+constexpr auto kCosine = economised<9>(true);
 
 void multiply(const double* a, const double* b, std::size_t count, double* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = a[i] * b[i];
@@ -50,11 +73,9 @@ CARTWRIGHT_VECTOR_CLONES void cosine_and_sine_of_cycles(const double* cycles, st
   for (std::size_t i = 0; i < count; ++i) {
     const double r = cycles[i] - ((cycles[i] + kRounder) - kRounder);
     const double r2 = r * r;
-    double s = kSine[kTerms - 1], c = kCosine[kTerms - 1];
-    for (std::size_t k = kTerms - 1; k-- > 0;) {
-      s = s * r2 + kSine[k];
-      c = c * r2 + kCosine[k];
-    }
+    double s = kSine.back(), c = kCosine.back();
+    for (std::size_t k = kSine.size() - 1; k-- > 0;) s = s * r2 + kSine[k];
+    for (std::size_t k = kCosine.size() - 1; k-- > 0;) c = c * r2 + kCosine[k];
     s *= r;
     cosine[i] = 1 - 2 * s * s;
     sine[i] = 2 * s * c;

@@ -56,7 +56,7 @@ class SineProblem {
   Eigen::Matrix3d base_;  ///< products of (1, x, y)
 };
 
-/// cos and sin of 2 pi times `cycles`, for each of `count` values; error below 1e-15. Vectorises.
+/// cos and sin of 2 pi times `cycles`, for each of `count` values; error below 1.5e-15. Vectorises.
 void cosine_and_sine_of_cycles(const double* cycles, std::size_t count, double* cosine, double* sine);
 
 }  // namespace cartwright

@@ -9,8 +9,8 @@
 #include "host/relay/periodogram.hpp"
 #include "host/relay/sine_intervals.hpp"
 #include "host/relay/sine_problem.hpp"
-#include "host/vector_clones.hpp"
 #include "host/relay/vector_sums.hpp"
+#include "host/vector_clones.hpp"
 
 namespace cartwright {
 namespace {

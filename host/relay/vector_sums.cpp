@@ -31,17 +31,21 @@ CARTWRIGHT_VECTOR_CLONES double sum(const double* a, std::size_t count) {
   return total(lanes);
 }
 
-float greatest(const float* a, std::size_t count) {
-  constexpr std::size_t kSide = 4;
-  using Floats = float __attribute__((vector_size(16)));
-  using FloatsAt = float __attribute__((vector_size(16), aligned(4), may_alias));
-  Floats most{};
+CARTWRIGHT_VECTOR_CLONES float greatest(const float* a, std::size_t count) {
+  constexpr std::size_t kSide = 8;
+  using Floats = float __attribute__((vector_size(32)));
+  using FloatsAt = float __attribute__((vector_size(32), aligned(4), may_alias));
+  Floats most{}, others{};  // two at a time, because one would wait for itself
   std::size_t i = 0;
-  for (; i + kSide <= count; i += kSide) {
+  for (; i + 2 * kSide <= count; i += 2 * kSide) {
     const Floats now = *reinterpret_cast<const FloatsAt*>(a + i);
+    const Floats then = *reinterpret_cast<const FloatsAt*>(a + i + kSide);
     most = now > most ? now : most;
+    others = then > others ? then : others;
   }
-  float out = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  most = others > most ? others : most;
+  float out = 0;
+  for (std::size_t lane = 0; lane < kSide; ++lane) out = std::max(out, most[lane]);
   for (; i < count; ++i) out = std::max(out, a[i]);
   return out;
 }
