@@ -5,6 +5,7 @@
 
 #include "host/cli/command.hpp"
 #include "host/evaluate/closed_loop.hpp"
+#include "host/evaluate/replay.hpp"
 #include "host/report/session_page.hpp"
 #include "host/session/files.hpp"
 
@@ -15,10 +16,29 @@ struct Options {
   std::string session, model, out;
 };
 
-double rms_difference_m(const std::vector<double>& a, const std::vector<double>& b) {
-  double square = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(square / static_cast<double>(a.size()));
+struct Predicted {
+  std::string how;
+  double rms_error_m = 0;
+  report::Overlay overlay;
+};
+
+/// The closed loop where the control law is known, else the recorded voltage from the start: the same numbers
+/// as `cartwright evaluate` gives.
+Predicted predicted_by(const Model& model, const Rig& rig, const Recording& recording) {
+  Predicted out;
+  out.overlay = {"model", report::Colour::model, recording.t_s, {}, {}};
+  if (recording.has_controller()) {
+    Recording again = simulate(model, rig, recording);
+    out.how = "driven by the recorded reference through the same controller";
+    out.rms_error_m = squared_error(again.y_m, recording.y_m).rms_m();
+    out.overlay.y_m = std::move(again.y_m);
+    out.overlay.u_V = std::move(again.u_V);
+  } else {
+    out.how = "driven by the recorded voltage, its start taken from the first 20 rows";
+    out.overlay.y_m = replay_open_loop(model, recording);
+    out.rms_error_m = open_loop_error(out.overlay.y_m, recording).rms_m();
+  }
+  return out;
 }
 
 Outcome run(const Options& options) {
@@ -50,14 +70,10 @@ Outcome run(const Options& options) {
                        report::describe_fully(recording.controller) + ".";
     std::vector<report::Overlay> overlays;
     if (model) {
-      Recording predicted = simulate(*model, session->rig, recording);
-      line += fmt::format(" The model, {}, is {:.3g} mm rms away.",
-                          recording.has_controller()
-                              ? "driven by the recorded reference through the same controller"
-                              : "driven by the recorded voltage from rest",
-                          1e3 * rms_difference_m(recording.y_m, predicted.y_m));
-      overlays.push_back({"model", report::Colour::model, predicted.t_s, predicted.y_m,
-                          recording.has_controller() ? predicted.u_V : std::vector<double>{}});
+      Predicted predicted = predicted_by(*model, session->rig, recording);
+      line +=
+          fmt::format(" The model, {}, is {:.4g} mm rms away.", predicted.how, 1e3 * predicted.rms_error_m);
+      overlays.push_back(std::move(predicted.overlay));
     }
     page.paragraph(line);
     std::vector<report::Plot> plots = report::recording_plots(recording, overlays);

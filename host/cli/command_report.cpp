@@ -91,8 +91,10 @@ void add_report(CLI::App& app, int& exit_status) {
       "  cartwright report rig/monday --out monday.html\n"
       "  cartwright report rig/monday rig/monday-gains --out monday.html\n"
       "  cartwright report rig/monday --model yesterday=sunday.toml --truth cart.toml\n"
-      "Models given here are shown beside the ones identified from the session; --truth, what a\n"
-      "simulated cart was made of, stands in the tables as the true value.");
+      "Identifies from one step, from the relay tests and, unless --model gives models of all recordings,\n"
+      "from the recorded voltage: viscous and Coulomb friction and a constant force. Models given here are\n"
+      "shown beside those; --truth, what a simulated cart was made of, stands in the tables as the true "
+      "value.");
   auto options = std::make_shared<Options>();
   command->add_option("session,--session", options->sessions, "directories with session.toml, of one rig")
       ->required();

@@ -127,6 +127,22 @@ TEST(Unit, EveryNumberOfTheVocabularyIsShownWithoutUnderscores) {
   EXPECT_EQ(unit_of("relative_difference"), "");
 }
 
+TEST(IdentificationPage, AForeignSessionIsIdentifiedFromItsVoltageUnlessModelsAreGiven) {
+  Session session = two_pairs_and_a_repeat();
+  const Model cart = cart_with_viscous_friction();
+  session.recordings = {step(cart, session.rig, "foreign.csv", 60, 0)};
+  session.recordings[0].controller = {};
+  const std::string page = identification_page({session, {}, {}, "test"}).to_html();
+  for (const char* part : {"all recordings", "voltage gain", "viscous friction, coefficient"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  const std::string given = identification_page({session, {{"linear", cart}}, {}, "test"}).to_html();
+  EXPECT_EQ(given.find("all recordings"), std::string::npos);
+  for (double& y_m : session.recordings[0].y_m) y_m = 0;
+  EXPECT_NE(
+      identification_page({session, {}, {}, "test"}).to_html().find("Nothing from the recorded voltage"),
+      std::string::npos);
+}
+
 TEST(IdentificationPage, TheSameSessionGivesTheSameBytes) {
   const IdentificationPage content{two_pairs_and_a_repeat(),
                                    {{"linear", cart_with_viscous_friction()}},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/identify/identify.hpp"
 #include "host/report/pages/damping.hpp"
 #include "host/report/pages/friction_curve.hpp"
 #include "host/report/pages/gain_pairs.hpp"
@@ -21,6 +22,7 @@ constexpr Colour kModelColours[] = {Colour::model, Colour::other_model, Colour::
 
 constexpr const char* kFromOneStep = "one step, six intervals";
 constexpr const char* kFromRelays = "relay tests";
+constexpr const char* kFromVoltage = "all recordings";
 
 /// The speed that nearly all rows stay below, from positions a few rows apart so that the encoder's steps do
 /// not count as speed.
@@ -82,10 +84,26 @@ ParameterColumn column_of(const RelayReport& relay) {
   return column;
 }
 
-ParameterColumn column_of(std::string heading, const StepIdentification& step) {
+template <typename Found>
+ParameterColumn column_of(std::string heading, const Found& found) {
   ParameterColumn column{std::move(heading), {}};
-  for (const ParameterEstimate& found : step.estimates) column.values[found.parameter] = found.estimate;
+  for (const ParameterEstimate& one : found.estimates) column.values[one.parameter] = one.estimate;
   return column;
+}
+
+/// The least that moves like a cart, from the recorded voltage: what any session can be asked, with or
+/// without a known control law. Who gives models of their own has done that.
+Result<Identification> from_voltage(const IdentificationPage& content) {
+  if (!content.models.empty()) return failure("models were given");
+  return TermSet::create({Term::viscous_friction, Term::coulomb_friction, Term::constant_force})
+      .and_then([&](const TermSet& terms) { return identify(content.session, terms); });
+}
+
+std::string origin_of(const NamedModel& model, bool given, const Result<StepDamping>& step) {
+  if (given) return "a file given to the report";
+  if (model.name == kFromVoltage) return "the recorded voltage of all recordings, by the integral method";
+  if (model.name == kFromRelays) return "limit cycles of the relay tests, matched in time";
+  return step->piecewise.file + ", by the integral method";
 }
 
 }  // namespace
@@ -97,6 +115,11 @@ Report identification_page(const IdentificationPage& content) {
   std::vector<NamedModel> models = content.models;
   std::vector<ParameterColumn> columns;
   for (const NamedModel& one : models) columns.push_back(column_of(one));
+  const Result<Identification> recorded = from_voltage(content);
+  if (recorded) {
+    models.push_back({kFromVoltage, recorded->model});
+    columns.push_back(column_of(kFromVoltage, *recorded));
+  }
   const Result<StepDamping> step = step_damping(session);
   if (step) {
     // One step with constant damping is a stage on the way: it stands in the table, not in every plot.
@@ -117,15 +140,15 @@ Report identification_page(const IdentificationPage& content) {
   std::vector<ModelOrigin> origins;
   for (const NamedModel& one : models) {
     const bool given = origins.size() < content.models.size();
-    origins.push_back({one, given                     ? "a file given to the report"
-                            : one.name == kFromRelays ? "limit cycles of the relay tests, matched in time"
-                                                      : step->piecewise.file + ", by the integral method"});
+    origins.push_back({one, origin_of(one, given, step)});
   }
 
   Report page{"Identification of " + session.rig.name};
   add_summary(page, session, origins, content.truth);
   add_what_was_run(page, content);
   page.section("Parameters");
+  if (!recorded && content.models.empty())
+    page.paragraph("Nothing from the recorded voltage of all recordings: " + recorded.error().message + ".");
   page.table(parameters_table("Every model side by side", columns));
 
   std::vector<NamedModel> curves = models;
