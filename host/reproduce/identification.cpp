@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -154,11 +155,12 @@ report::Plot damping_over_speed(const Draws& draws, const PublishedNonlinear& pu
     points.x.push_back(one.speed_m_per_s);
     points.y.push_back(one.damping_per_s.value);
   }
-  const auto line = [&plot](std::string name, const Model& m, report::Colour colour, bool dashed) {
+  const double fastest_m_per_s = std::max(0.8, *std::max_element(points.x.begin(), points.x.end()));
+  const auto line = [&](std::string name, const Model& m, report::Colour colour, bool dashed) {
     const DampingLaw law{m[Parameter::exponential_alpha1], m[Parameter::exponential_alpha2],
                          m[Parameter::exponential_gamma]};
     report::Series series{.name = std::move(name), .colour = colour, .dashed = dashed};
-    for (double v = 0; v <= 0.8; v += 0.01) {
+    for (double v = 0; v <= 1.02 * fastest_m_per_s; v += 0.01) {
       series.x.push_back(v);
       series.y.push_back(law.at(v));
     }

@@ -7,7 +7,6 @@
 #include "common/control/pd.hpp"
 #include "common/model/encoder.hpp"
 #include "common/model/plant.hpp"
-#include "host/design/step_test.hpp"
 
 namespace cartwright::reproduce {
 
@@ -61,6 +60,11 @@ IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_
     out.u_V.push_back(run.u_V[row]);
   }
   return out;
+}
+
+design::Loop stepped_transfer_function(double period_s) {
+  constexpr double kNoLimit_V = 1e9, kNoFilter_hz = 1e9;
+  return {.period_s = period_s, .voltage_limit_V = kNoLimit_V, .derivative_filter_hz = kNoFilter_hz};
 }
 
 }  // namespace cartwright::reproduce

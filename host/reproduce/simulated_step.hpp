@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/model/model.hpp"
+#include "host/design/step_test.hpp"
 #include "host/reproduce/published_carts.hpp"
 #include "host/session/session.hpp"
 
@@ -32,5 +33,10 @@ struct IdealResponse {
   std::vector<double> y_m, u_V;  ///< at 0, period, 2 period, ...
 };
 IdealResponse ideal_response(const Model& cart, GainPair gains, double duration_s);
+
+/// A loop that is stepped as a transfer function of PD law and cart is: the derivative of the error, Eq.
+/// (57), sees the step itself, and nothing limits or filters what it makes of it - an impulse, after which
+/// the cart starts at beta Kd r0. Eq. (62) has left it out.
+design::Loop stepped_transfer_function(double period_s);
 
 }  // namespace cartwright::reproduce
