@@ -103,6 +103,11 @@ CARTWRIGHT_VECTOR_CLONES Sums<double> integrate(const double* t_s, const double*
 
 IntervalSums interval_sums(const IntegralData& data, std::size_t first, std::size_t last) {
   IntervalSums out;
+  if (first >= last) {
+    out.gram.setZero();
+    out.right.setZero();
+    return out;
+  }
   Sums<double> s;
   RunningIntegrals& r = out.at_end;
   const double from_s = data.t_s[first];

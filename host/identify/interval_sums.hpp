@@ -40,14 +40,15 @@ struct RunningIntegrals {
 };
 
 /// Normal equations of y = a + b tau - c I - k J over the rows first ... last - 1, tau from the first of
-/// them, and where the integrals have got to at the last one.
+/// them, and where the integrals have got to at the last one. Without rows, nothing.
 struct IntervalSums {
   Eigen::Matrix4d gram;
   Eigen::Vector4d right;
   RunningIntegrals at_end;
 };
 
-/// One pass over the samples, four side by side; no allocation. The same bits on every processor.
+/// One pass over the samples, four runs of them side by side; no allocation. The same bits on every
+/// processor.
 IntervalSums interval_sums(const IntegralData& data, std::size_t first, std::size_t last);
 
 }  // namespace cartwright

@@ -188,7 +188,8 @@ Result<Section> prediction_errors(const ReproduceOptions& options) {
          list(table.rows[i].errors_mm(kLong_s)),
          i > 0 ? "as above"
                : "models identified here from one response each (Kp 60, 80, 100) of one simulated cart, Eq. "
-                 "(73); it has no stiction, which the models do not have either"});
+                 "(73). All errors are smaller: the measured cart has stiction and gear backlash, which "
+                 "neither kind of model can follow, and this one has neither"});
     section.plots.push_back(row_plot(table.rows[i], gains));
   }
   section.items.push_back({"average over 1 s", kPublished1s, averages(table.long_mm),

@@ -66,5 +66,15 @@ TEST(IntervalSums, AreThoseOfTheRowsOneByOneWhateverTheirNumber) {
   }
 }
 
+TEST(IntervalSums, OfNoRowsAreNothing) {
+  const Rows rows(8);
+  for (const std::size_t at : {0u, 3u, 8u}) {
+    const IntervalSums sums = interval_sums({rows.t_s, rows.y_m, {}}, at, at);
+    EXPECT_EQ(sums.gram.cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ(sums.right.cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ(sums.at_end.J, 0);
+  }
+}
+
 }  // namespace
 }  // namespace cartwright
