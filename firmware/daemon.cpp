@@ -18,8 +18,9 @@
 namespace cartwright::firmware {
 namespace {
 
-/// Ten minutes at 1 kHz.
-constexpr std::size_t kLogRows = 600'000;
+/// Ten minutes at 1 kHz, with the way to the start before and the wait for the host after: the longest
+/// recording there is can be fetched whole.
+constexpr std::size_t kLogRows = 615'000;
 constexpr std::int64_t kIdleRest_ns = 2'000'000;
 
 std::atomic<bool> stop_requested{false};

@@ -169,6 +169,14 @@ Answer<Download> download(Controller& controller, Range range, const Progress& p
     CsvTable& table = fetched_rows->table;
     done += info.rows;
     const std::uint64_t gone = info.rows - table.rows();
+    if (table.rows() < 2) {
+      result.losses.push_back(
+          gone == 0
+              ? fmt::format("{}: fewer than 2 rows were recorded; left out", info.file)
+              : fmt::format("{}: all but {} of {} rows were overwritten before they were fetched; left out",
+                            info.file, table.rows(), info.rows));
+      continue;
+    }
     if (gone > 0) {
       result.losses.push_back(fmt::format("{}: {} of {} rows were overwritten before they were fetched",
                                           info.file, gone, info.rows));
@@ -183,10 +191,6 @@ Answer<Download> download(Controller& controller, Range range, const Progress& p
     recording.file = unique_file(info.file, taken);
     recording.experiment = info.experiment;
     recording.controller = info.controller;
-    if (table.rows() < 2) {
-      result.losses.push_back(fmt::format("{}: left out, fewer than 2 rows are left of it", info.file));
-      continue;
-    }
     if (const auto columns = take_columns(recording, std::move(table), recording.file); !columns) {
       return trouble(Cause::incompatible, columns.error().message);
     }
