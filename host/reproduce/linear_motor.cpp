@@ -167,8 +167,9 @@ Result<Section> adaptive_starts(const ReproduceOptions& /*options*/) {
                      std::sqrt(early / static_cast<double>(early_rows)),
                      std::sqrt(late / static_cast<double>(late_rows)), result.last[E::a] - result.last[E::f2],
                      result.last[E::b], result.last[E::f1]),
-         "f2 |x'| of Eq. (24), (30) is even in the direction; with x' in its place, as Eq. (13) asks, "
-         "only a - f2 has a true value: -20.5"});
+         fmt::format("f2 |x'| of Eq. (24), (30) is even in the direction; with x' in its place, as Eq. (13) "
+                     "asks, only a - f2 has a true value: {:.1f}",
+                     kA - kF2)});
   }
   const TrackingResult printed = track(start_setup(kStarts[2], true));
   section.items.push_back(

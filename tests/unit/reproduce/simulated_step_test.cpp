@@ -27,6 +27,26 @@ TEST(IdealResponse, OfALinearModelIsTheTextbookSecondOrderSystem) {
   EXPECT_NEAR(r.u_V.front(), 60 * kStep_m, 1e-12);
 }
 
+TEST(SteppedTransferFunction, StartsTheCartAtTheImpulseOfTheStepsDerivative) {
+  // (beta Kd s + beta Kp)/(s^2 + (c + beta Kd) s + beta Kp): the step response above plus Kd/Kp times its
+  // slope.
+  const auto& m = kPublishedLinear[0];
+  const double kp = 60, kd = 5, beta = m.beta_m_per_s2_V;
+  const double w = std::sqrt(beta * kp), zeta = (m.c_per_s + beta * kd) / (2 * w);
+  const double period_s = 1e-4, wd = w * std::sqrt(1 - zeta * zeta);
+  design::StepTest test;
+  test.step_m = kStep_m;
+  test.duration_s = 1;
+  const auto run = design::run_step(m.model(), {kp, kd}, stepped_transfer_function(period_s), test);
+  const auto without = second_order(zeta, w, period_s, 1);
+  for (std::size_t i = 0; i < without.size(); i += 100) {
+    const double t = run.t_s[i];
+    const double slope = w * w / wd * std::exp(-zeta * w * t) * std::sin(wd * t);
+    ASSERT_NEAR(run.y_m[i], kStep_m * (without[i] + kd / kp * slope), 2e-3 * kStep_m) << t;
+  }
+  EXPECT_NEAR((run.y_m[2] - run.y_m[1]) / period_s, beta * kd * kStep_m, 0.01 * beta * kd * kStep_m);
+}
+
 TEST(SimulatedStep, ClipsTheKickOfTheDerivativeAtTheStep) {
   StepSetup setup;
   setup.gains = {60, 5};
