@@ -44,7 +44,8 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);
   }
   for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);
-  fmt::print("  written: {0}/diagnosis.json, {0}/model.toml, {0}/report.html\n", out);
+  fmt::print("  written: {0}/diagnosis.json, {0}/model.toml, {0}/report.html{1}\n", out,
+             d.unexplained ? fmt::format(", {}/missing_force.csv", out) : "");
 }
 
 Outcome run(const Options& options) {
@@ -71,10 +72,12 @@ Outcome run(const Options& options) {
   Diagnosis diagnosis = diagnose(*session, *model, how);
   diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks->begin(), remarks->end());
   const std::string json = to_json(diagnosis);
-  const auto written =
-      write_files(options.out, {{"diagnosis.json", json},
-                                {"model.toml", model_with_intervals(diagnosis)},
-                                {"report.html", diagnosis_page(diagnosis, *session, *model).to_html()}});
+  std::vector<NamedText> files{{"diagnosis.json", json},
+                               {"model.toml", model_with_intervals(diagnosis)},
+                               {"report.html", diagnosis_page(diagnosis, *session, *model).to_html()}};
+  if (diagnosis.unexplained)
+    files.push_back({"missing_force.csv", missing_force_csv(*diagnosis.unexplained)});
+  const auto written = write_files(options.out, files);
   if (!written) return tl::unexpected(written.error());
   if (options.json) {
     std::fputs(json.c_str(), stdout);

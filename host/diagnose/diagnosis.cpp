@@ -9,9 +9,9 @@
 #include "host/diagnose/estimate.hpp"
 #include "host/diagnose/held_out.hpp"
 #include "host/diagnose/lost_counts.hpp"
+#include "host/diagnose/prediction_errors.hpp"
 #include "host/diagnose/statement.hpp"
 #include "host/diagnose/surrogate.hpp"
-#include "host/diagnose/window_errors.hpp"
 #include "host/statistics/distributions.hpp"
 
 namespace cartwright {
@@ -67,7 +67,7 @@ double paired_z(const Fit& better, const Fit& worse) {
 
 /// Share of the excess of the window errors, above the floor, that the effects leave; 1 where there is no
 /// excess.
-double excess_left(const WindowErrors& errors, double floor_m) {
+double excess_left(const Errors& errors, double floor_m) {
   const double floor = floor_m * floor_m;
   const double before = errors.refitted * errors.refitted - floor;
   const double after = errors.with_effects * errors.with_effects - floor;
@@ -147,8 +147,10 @@ class Diagnostician {
     if (refused) {
       result_.verdict = Verdict::unexplained;
       result_.model = found.refitted.fit.model;
-      result_.used.with_effects = result_.used.refitted;
-      result_.held_out.with_effects = result_.held_out.refitted;
+      for (Errors* e :
+           {&result_.used, &result_.held_out, &result_.used_closed_loop, &result_.held_out_closed_loop}) {
+        e->with_effects = e->refitted;
+      }
     } else if (!found.contests.empty()) {
       result_.verdict = Verdict::missing_physics;
     } else {
@@ -205,19 +207,22 @@ class Diagnostician {
       const Model& model = found.best.fit.model;
       return window_rmse_m(model, surrogate(session, model, noise, 1), options_.threads);
     };
-    const auto errors = [&](const Session& raw, const Session& mended) {
-      WindowErrors w;
-      w.nominal = window_rmse_m(nominal_, raw, options_.threads);
-      w.refitted = window_rmse_m(found.refitted.fit.model, raw, options_.threads);
-      w.with_effects =
-          found.contests.empty() ? w.refitted : window_rmse_m(found.best.fit.model, mended, options_.threads);
-      return w;
+    const auto errors = [&](auto rmse_m, const Session& raw, const Session& mended) {
+      Errors e;
+      e.nominal = rmse_m(nominal_, raw, options_.threads);
+      e.refitted = rmse_m(found.refitted.fit.model, raw, options_.threads);
+      e.with_effects =
+          found.contests.empty() ? e.refitted : rmse_m(found.best.fit.model, mended, options_.threads);
+      return e;
     };
-    result_.used = errors(used, repaired);
+    result_.used = errors(window_rmse_m, used, repaired);
+    result_.used_closed_loop = errors(closed_loop_rmse_m, used, repaired);
     if (!held.empty()) {
       const Session out = only(session_, held);
+      const Session mended = found.best.has(Term::encoder_missed_counts) ? repair(out) : out;
       held_floor_m_ = floor_m(out);
-      result_.held_out = errors(out, found.best.has(Term::encoder_missed_counts) ? repair(out) : out);
+      result_.held_out = errors(window_rmse_m, out, mended);
+      result_.held_out_closed_loop = errors(closed_loop_rmse_m, out, mended);
     }
     double floor = floor_m(used);
     const double systematic =

@@ -48,8 +48,8 @@ struct NominalParameter {
   double with_nominal_terms_only = 0;
 };
 
-/// Root-mean-square error of 0.5 s windows [m].
-struct WindowErrors {
+/// Root-mean-square errors of prediction [m].
+struct Errors {
   double nominal = 0, refitted = 0, with_effects = 0;
 };
 
@@ -68,7 +68,8 @@ struct Diagnosis {
   std::vector<Effect> effects;  ///< strongest first
   std::vector<RunnerUp> runner_up;
   std::vector<NominalParameter> parameters;
-  WindowErrors used, held_out;
+  Errors used, held_out;                          ///< of 0.5 s windows
+  Errors used_closed_loop, held_out_closed_loop;  ///< NaN where no recording comes with a controller
   double noise_floor_m = 0;
   std::vector<std::string> held_out_recordings;
   std::optional<Unexplained> unexplained;

@@ -71,17 +71,34 @@ Json map_json(const AxisMap& map) {
           {"band_m_per_s2", numbers(map.band_m_per_s2)}};
 }
 
+Json profile_json(const Profile& profile) {
+  return {{"axis", profile.axis},
+          {"flat", profile.flat()},
+          {"share", number(profile.flat() ? 0 : profile.share)},
+          {"at", numbers(profile.at)},
+          {profile.axis == "input_lag_s" ? "correlation" : "gain_nats", numbers(profile.value)},
+          {"band", number(profile.band)},
+          {"flat_below", number(profile.bar)}};
+}
+
 Json location_json(const Location& location) {
   Json axes = Json::array();
   for (const AxisMap& map : location.axes) axes.push_back(map_json(map));
-  return {
-      {"axes", axes},
-      {"line",
-       {{"frequency_hz", number(location.line.frequency_hz)}, {"gain_nats", number(location.line.gain)}}},
-      {"input_lag", {{"lag_s", number(location.lag_s)}, {"correlation", number(location.lag_correlation)}}},
-      {"repeats",
-       {{"correlation", number(location.repeat_correlation)},
-        {"standard_errors", number(location.repeat_z)}}}};
+  Json profiles = Json::array();
+  for (const Profile& profile : location.profiles) profiles.push_back(profile_json(profile));
+  return {{"axes", axes},
+          {"profiles", profiles},
+          {"line",
+           {{"frequency_hz", number(location.line.frequency_hz)}, {"gain_nats", number(location.line.gain)}}},
+          {"repeats",
+           {{"correlation", number(location.repeat_correlation)},
+            {"standard_errors", number(location.repeat_z)}}}};
+}
+
+Json errors_json(const Errors& e) {
+  return {{"nominal", number(e.nominal)},
+          {"refitted", number(e.refitted)},
+          {"with_effects", number(e.with_effects)}};
 }
 
 Json unexplained_json(const std::optional<Unexplained>& left) {
@@ -114,18 +131,15 @@ std::string to_json(const Diagnosis& d) {
                                              {"low", number(p.refitted.low)},
                                              {"high", number(p.refitted.high)}};
   }
-  json["fit"] = {{"window_rmse_m",
-                  {{"nominal", number(d.used.nominal)},
-                   {"refitted", number(d.used.refitted)},
-                   {"with_effects", number(d.used.with_effects)},
-                   {"noise_floor", number(d.noise_floor_m)}}}};
-  if (d.held_out_recordings.empty()) {
-    json["fit"]["held_out"] = nullptr;
-  } else {
-    json["fit"]["held_out"] = {{"recordings", d.held_out_recordings},
-                               {"nominal", number(d.held_out.nominal)},
-                               {"refitted", number(d.held_out.refitted)},
-                               {"with_effects", number(d.held_out.with_effects)}};
+  json["fit"] = {{"window_rmse_m", errors_json(d.used)},
+                 {"closed_loop_rmse_m", errors_json(d.used_closed_loop)}};
+  json["fit"]["window_rmse_m"]["noise_floor"] = number(d.noise_floor_m);
+  json["fit"]["held_out"] = nullptr;
+  if (!d.held_out_recordings.empty()) {
+    Json held{{"recordings", d.held_out_recordings}};
+    held.update(errors_json(d.held_out));
+    held["closed_loop_rmse_m"] = errors_json(d.held_out_closed_loop);
+    json["fit"]["held_out"] = held;
   }
   json["unexplained"] = unexplained_json(d.unexplained);
   json["next_experiment"] = nullptr;
@@ -138,6 +152,15 @@ std::string to_json(const Diagnosis& d) {
   json["location"] = {{"before", location_json(d.before)}, {"after", location_json(d.after)}};
   json["remarks"] = d.remarks;
   return json.dump(2) + "\n";
+}
+
+std::string missing_force_csv(const Unexplained& left) {
+  std::string csv = fmt::format("{0}_low,{0}_high,push_m_per_s2,band_m_per_s2\n", left.axis);
+  for (std::size_t i = 0; i < left.curve.low.size(); ++i) {
+    csv += fmt::format("{},{},{},{}\n", left.curve.low[i], left.curve.high[i], left.curve.push_m_per_s2[i],
+                       left.curve.band_m_per_s2[i]);
+  }
+  return csv;
 }
 
 std::string model_with_intervals(const Diagnosis& d) {

@@ -14,4 +14,9 @@ std::string to_json(const Diagnosis& diagnosis);
 /// models pass over.
 std::string model_with_intervals(const Diagnosis& diagnosis);
 
+/// `missing_force.csv`: what no term explains as a table, a row per bin of the axis that carries it: its
+/// edges, the missing push and the half width of its 95 % band [m/s^2]. On odd maps a positive push acts
+/// against the motion.
+std::string missing_force_csv(const Unexplained& left);
+
 }  // namespace cartwright

@@ -5,33 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/diagnose/location_page.hpp"
+#include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/replay.hpp"
 
 namespace cartwright {
 namespace {
 
 using namespace report;
-
-std::string unit_of(std::string_view key) {
-  // The unit is the last part of a name.
-  for (const auto& [ending, unit] :
-       {std::pair<std::string_view, std::string_view>{"_m_per_s2_V", "m/s² per V"},
-        {"_m_per_s2", "m/s²"},
-        {"_m_per_s", "m/s"},
-        {"_s_per_m", "s/m"},
-        {"_per_s2", "1/s²"},
-        {"_per_s", "1/s"},
-        {"_per_m", "1/m"},
-        {"_hz", "Hz"},
-        {"_rad", "rad"},
-        {"_counts", "counts"},
-        {"_V", "V"},
-        {"_s", "s"},
-        {"_m", "m"}}) {
-    if (key.ends_with(ending)) return std::string(unit);
-  }
-  return "";
-}
 
 Cell micrometres(double value_m) {
   return Cell::number(1e6 * value_m, 3);
@@ -60,67 +41,6 @@ void verdict(Report& page, const Diagnosis& d) {
       page.verdict(Tone::bad, "Something is missing that no term of the vocabulary explains.",
                    d.unexplained->why_refused + ". " + detail);
       return;
-  }
-}
-
-Plot map_plot(const AxisMap& before, const AxisMap& after) {
-  Plot plot;
-  plot.title = before.axis + (before.parity == "odd" ? ", against the motion" : "");
-  plot.x = {before.axis, unit_of(before.axis)};
-  plot.y = {"missing push", "m/s²"};
-  plot.height_px = 190;
-  Series estimate{"refitted nominal"}, band{"chance (95 %, all axes)"}, left{"after"};
-  band.mark = Mark::band;
-  band.colour = Colour::muted;
-  estimate.mark = left.mark = Mark::step;
-  estimate.colour = Colour::warning;
-  left.colour = Colour::model;
-  const auto bin = [](Series& s, double low, double high, double value) {
-    s.x.insert(s.x.end(), {low, high});
-    s.y.insert(s.y.end(), {value, value});
-  };
-  for (std::size_t i = 0; i < before.low.size(); ++i) {
-    bin(band, before.low[i], before.high[i], 0);
-    band.low.insert(band.low.end(), {-before.band_m_per_s2[i], -before.band_m_per_s2[i]});
-    band.high.insert(band.high.end(), {before.band_m_per_s2[i], before.band_m_per_s2[i]});
-    bin(estimate, before.low[i], before.high[i], before.push_m_per_s2[i]);
-  }
-  for (std::size_t i = 0; i < after.low.size(); ++i)
-    bin(left, after.low[i], after.high[i], after.push_m_per_s2[i]);
-  plot.add(band);
-  plot.add(estimate);
-  plot.add(left);
-  return plot;
-}
-
-void where(Report& page, const Diagnosis& d) {
-  page.section("Where does the model fail?");
-  page.paragraph(
-      "The push that the refitted nominal model would need, estimated along one axis at a time without "
-      "naming any "
-      "physics. Grey is what chance alone reaches anywhere on any axis in one session of twenty.");
-  std::vector<Plot> plots;
-  std::string flat;
-  for (std::size_t i = 0; i < d.before.axes.size(); ++i) {
-    const AxisMap& map = d.before.axes[i];
-    if (map.flat()) {
-      flat += fmt::format("{}{}{}", flat.empty() ? "" : ", ", map.axis,
-                          map.parity == "odd" ? " (against the motion)" : "");
-      continue;
-    }
-    plots.push_back(map_plot(map, d.after.axes[i]));
-  }
-  if (!plots.empty()) page.plots(plots, 2);
-  if (!flat.empty()) page.note("Looked at and flat: " + flat + ".");
-  if (d.before.line.gain > 10) {
-    page.paragraph(
-        fmt::format("A line at {:.3g} Hz stands in the spectrum of the errors.", d.before.line.frequency_hz));
-  }
-  if (d.before.repeat_z != 0) {
-    page.note(
-        fmt::format("Repeats of the same reference have {:.0f} % of the smoothed error in common ({:.1f} "
-                    "standard errors).",
-                    100 * std::max(0.0, d.before.repeat_correlation), d.before.repeat_z));
   }
 }
 
@@ -166,30 +86,31 @@ void what(Report& page, const Diagnosis& d) {
   }
 }
 
-void overlay(Report& page, const Recording& r, const Diagnosis& d, const Model& nominal) {
-  const std::vector<double> with = replay_windows(d.model, r), without = replay_windows(nominal, r);
+/// Measured and predicted, and below it the errors.
+void overlay(Report& page, const Recording& r, const std::string& how, const std::vector<double>& nominal_m,
+             const std::vector<double>& found_m) {
   Plot plot, error;
-  plot.title = r.file + ": 0.5 s windows replayed from the recorded voltage";
+  plot.title = r.file + ": " + how;
   plot.linked = error.linked = r.file;
   plot.x = error.x = {"t_s", "s"};
   plot.y = {"position", "mm"};
   error.title = "error";
   error.y = {"measured less predicted", "µm"};
   error.height_px = 170;
-  Series measured{"measured"}, nominal_line{"nominal"}, found{"found"}, nominal_error{"nominal"},
+  Series measured{"measured"}, nominal{"nominal"}, found{"found"}, nominal_error{"nominal"},
       found_error{"found"};
   measured.colour = Colour::measured;
-  nominal_line.colour = nominal_error.colour = Colour::other_model;
+  nominal.colour = nominal_error.colour = Colour::other_model;
   found.colour = found_error.colour = Colour::model;
   for (std::size_t k = 0; k < r.size(); ++k) {
     measured.y.push_back(1e3 * r.y_m[k]);
-    nominal_line.y.push_back(1e3 * without[k]);
-    found.y.push_back(1e3 * with[k]);
-    nominal_error.y.push_back(1e6 * (r.y_m[k] - without[k]));
-    found_error.y.push_back(1e6 * (r.y_m[k] - with[k]));
+    nominal.y.push_back(1e3 * nominal_m[k]);
+    found.y.push_back(1e3 * found_m[k]);
+    nominal_error.y.push_back(1e6 * (r.y_m[k] - nominal_m[k]));
+    found_error.y.push_back(1e6 * (r.y_m[k] - found_m[k]));
   }
-  for (Series* s : {&measured, &nominal_line, &found, &nominal_error, &found_error}) s->x = r.t_s;
-  plot.series = {measured, nominal_line, found};
+  for (Series* s : {&measured, &nominal, &found, &nominal_error, &found_error}) s->x = r.t_s;
+  plot.series = {measured, nominal, found};
   error.series = {nominal_error, found_error};
   page.plot(plot);
   page.plot(error);
@@ -198,21 +119,38 @@ void overlay(Report& page, const Recording& r, const Diagnosis& d, const Model& 
 void better(Report& page, const Diagnosis& d, const Session& session, const Model& nominal) {
   page.section("How much better is the model now?");
   Table table{
-      "Root-mean-square error of 0.5 s windows, start state of each window fitted",
-      {{"recordings"}, {"nominal", "µm"}, {"refitted", "µm"}, {"with effects", "µm"}, {"noise floor", "µm"}}};
-  table.row({"used", micrometres(d.used.nominal), micrometres(d.used.refitted),
-             micrometres(d.used.with_effects).emphasise(), micrometres(d.noise_floor_m)});
+      "Root-mean-square errors: 0.5 s windows replayed from the recorded voltage, start state of each "
+      "fitted; and "
+      "the recorded controller run on the model from its reference",
+      {{"recordings"},
+       {"predicted"},
+       {"nominal", "µm"},
+       {"refitted", "µm"},
+       {"with effects", "µm"},
+       {"noise floor", "µm"}}};
+  const auto row = [&](const std::string& which, const char* how, const Errors& e, const Cell& floor) {
+    if (!std::isfinite(e.nominal)) return;
+    table.row({which, how, micrometres(e.nominal), micrometres(e.refitted),
+               micrometres(e.with_effects).emphasise(), floor});
+  };
+  row("used", "windows", d.used, micrometres(d.noise_floor_m));
+  row("used", "closed loop", d.used_closed_loop, Cell(""));
   std::string held;
   for (const std::string& file : d.held_out_recordings) held += (held.empty() ? "" : ", ") + file;
   if (!held.empty()) {
-    table.row({"held out of everything: " + held, micrometres(d.held_out.nominal),
-               micrometres(d.held_out.refitted), micrometres(d.held_out.with_effects).emphasise(), Cell("")});
+    row("held out of everything: " + held, "windows", d.held_out, Cell(""));
+    row("held out of everything: " + held, "closed loop", d.held_out_closed_loop, Cell(""));
   }
   page.table(table);
   const auto shown = std::find_if(
       session.recordings.begin(), session.recordings.end(),
       [&](const Recording& r) { return held.empty() || r.file == d.held_out_recordings.front(); });
-  overlay(page, *shown, d, nominal);
+  overlay(page, *shown, "0.5 s windows replayed from the recorded voltage", replay_windows(nominal, *shown),
+          replay_windows(d.model, *shown));
+  if (shown->has_controller()) {
+    overlay(page, *shown, "the controller run on the model from its reference",
+            simulate(nominal, session.rig, *shown).y_m, simulate(d.model, session.rig, *shown).y_m);
+  }
 }
 
 void what_else(Report& page, const Diagnosis& d) {
@@ -232,16 +170,16 @@ void what_else(Report& page, const Diagnosis& d) {
   }
   Plot plot;
   plot.title = "What each start of each term promised before fitting (refitted nominal model, linear)";
-  plot.y = {"log-likelihood gain", "nats"};
+  plot.x = {"log-likelihood gain", "nats"};
   Series bars{"promise"};
   bars.mark = Mark::bars;
   std::vector<Term> seen;
   for (const Promise& promise : d.search.promises) {
     if (std::find(seen.begin(), seen.end(), promise.term) != seen.end()) continue;
     seen.push_back(promise.term);
-    plot.x.categories.emplace_back(info(promise.term).name);
-    bars.x.push_back(static_cast<double>(bars.x.size()));
-    bars.y.push_back(std::max(0.0, promise.log_likelihood_gain));
+    plot.y.categories.emplace_back(info(promise.term).name);
+    bars.y.push_back(static_cast<double>(bars.y.size()));
+    bars.x.push_back(std::max(0.0, promise.log_likelihood_gain));
     if (seen.size() >= 10) break;
   }
   plot.add(bars);
@@ -270,7 +208,7 @@ report::Report diagnosis_page(const Diagnosis& diagnosis, const Session& session
               fmt::format("{} recordings, {:.0f} s, at {:g} Hz; Cartwright {}", session.recordings.size(),
                           seconds, session.rig.sample_rate_hz, CARTWRIGHT_VERSION));
   verdict(page, diagnosis);
-  where(page, diagnosis);
+  add_location(page, diagnosis);
   what(page, diagnosis);
   better(page, diagnosis, session, nominal);
   what_else(page, diagnosis);

@@ -61,40 +61,11 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   return map;
 }
 
-/// Sum over recordings of the normalised periodogram, largest over frequency.
-SpectralLine strongest_line(const Session& session, const Fit& fit) {
-  constexpr double kLowest_hz = 1, kHighest_hz = 150, kStep_hz = 0.1;
-  const std::size_t skip = settling_rows(session.rig);
-  const double highest = std::min(kHighest_hz, 0.4 * session.rig.sample_rate_hz);
-  SpectralLine line;
-  double looks = 0;
-  const double variance = fit.error_rms_m * fit.error_rms_m;
-  for (double f = kLowest_hz; f < highest; f += kStep_hz) {
-    ++looks;
-    double power = 0, recordings = 0;
-    std::size_t first = 0;
-    for (const Recording& r : session.recordings) {
-      if (r.size() <= skip) continue;
-      const std::size_t rows = r.size() - skip;
-      // Goertzel recursion; jitter of the ticks is far below a period of what is looked for.
-      const double w = 2 * std::numbers::pi * f / session.rig.sample_rate_hz;
-      const double c = 2 * std::cos(w);
-      double s1 = 0, s2 = 0;
-      for (std::size_t k = 0; k < rows; ++k) {
-        const double s = fit.error_m[first + k] + c * s1 - s2;
-        s2 = s1, s1 = s;
-      }
-      power += (s1 * s1 + s2 * s2 - c * s1 * s2) / (static_cast<double>(rows) * variance);
-      ++recordings;
-      first += rows;
-    }
-    // Sum of R unit exponentials; Chernoff bound of its tail, in nats.
-    const double gain =
-        power > recordings ? power - recordings - recordings * std::log(power / recordings) : 0;
-    if (gain > line.gain) line = {f, gain};
-  }
-  line.gain = std::max(0.0, line.gain - std::log(std::max(looks, 1.0)));
-  return line;
+SpectralLine strongest_line(const Profile& spectrum) {
+  if (spectrum.value.empty()) return {};
+  const std::size_t top = spectrum.strongest();
+  const double looks = static_cast<double>(spectrum.value.size());
+  return {spectrum.at[top], std::max(0.0, spectrum.value[top] - std::log(looks))};
 }
 
 /// Pairs of repeats have the same physics left out and different noise.
@@ -134,30 +105,6 @@ void compare_repeats(const Session& session, const Fit& fit, Location& location)
   if (count < 10) return;
   location.repeat_correlation = cross / power;
   location.repeat_z = location.repeat_correlation * std::sqrt(count);
-}
-
-/// Errors against the change of the voltage some ticks before: what arrives late shows here.
-void correlate_with_input(const Session& session, const Fit& fit, Location& location) {
-  const std::size_t skip = settling_rows(session.rig);
-  const auto lags = static_cast<std::size_t>(std::max(3.0, 0.03 * session.rig.sample_rate_hz));
-  for (std::size_t lag = 0; lag < lags; ++lag) {
-    double dot = 0, uu = 0, ee = 0;
-    std::size_t first = 0;
-    for (const Recording& r : session.recordings) {
-      if (r.size() <= skip) continue;
-      for (std::size_t k = std::max(skip, lag + 2); k < r.size(); ++k) {
-        const double change = r.u_V[k - lag - 1] - r.u_V[k - lag - 2];
-        const double e = fit.error_m[first + k - skip];
-        dot += change * e, uu += change * change, ee += e * e;
-      }
-      first += r.size() - skip;
-    }
-    const double correlation = uu > 0 && ee > 0 ? dot / std::sqrt(uu * ee) : 0;
-    if (std::abs(correlation) > std::abs(location.lag_correlation)) {
-      location.lag_correlation = correlation;
-      location.lag_s = static_cast<double>(lag) * session.rig.period_s();
-    }
-  }
 }
 
 }  // namespace
@@ -216,9 +163,10 @@ Location locate(const Session& session, const Fit& fit, const FitOptions& option
     }
     map.share = power > 0 && !map.flat() ? std::min(1.0, explained / power) : 0;
   }
-  location.line = strongest_line(session, fit);
+  location.profiles = {spatial_frequency_profile(session, fit, options, threads),
+                       frequency_profile(session, fit), input_lag_profile(session, fit)};
+  location.line = strongest_line(location.profiles[1]);
   compare_repeats(session, fit, location);
-  correlate_with_input(session, fit, location);
   const std::size_t skip = settling_rows(session.rig);
   std::size_t first = 0;
   for (const Recording& r : session.recordings) {

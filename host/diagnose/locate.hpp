@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/diagnose/fit.hpp"
+#include "host/diagnose/profile.hpp"
 
 namespace cartwright {
 
@@ -32,9 +32,8 @@ struct SpectralLine {
 
 struct Location {
   std::vector<AxisMap> axes;
-  SpectralLine line;
-  double lag_correlation = 0;  ///< of errors with the change of voltage, largest over lags
-  double lag_s = 0;
+  std::vector<Profile> profiles;  ///< over spatial frequency, time frequency and input lag
+  SpectralLine line;              ///< the strongest of the time frequencies
   double repeat_correlation = 0;  ///< of smoothed errors between repeats; 0 without repeats
   double repeat_z = 0;            ///< that, in standard errors
   std::vector<double> recording_rms_m;

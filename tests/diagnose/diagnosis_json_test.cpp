@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <nlohmann/json.hpp>
+
 #include "common/config/model_toml.hpp"
 
 namespace cartwright {
@@ -21,6 +24,33 @@ TEST(ModelWithIntervals, IsAModelFileWhateverItsFlags) {
   const auto model = model_from_toml(text, "model.toml");
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ((*model)[Parameter::transport_delay], 0.002);
+}
+
+TEST(ClosedLoopErrors, AreThereWhereThereIsAController) {
+  Diagnosis d;
+  d.used = {9e-4, 6e-4, 8e-5};
+  d.used_closed_loop = {1e-3, 7e-4, 9e-5};
+  auto json = nlohmann::json::parse(to_json(d));
+  EXPECT_EQ(json["fit"]["window_rmse_m"]["with_effects"], 8e-5);
+  EXPECT_EQ(json["fit"]["closed_loop_rmse_m"]["with_effects"], 9e-5);
+  EXPECT_TRUE(json["fit"]["held_out"].is_null());
+
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  d.used_closed_loop = {none, none, none};
+  json = nlohmann::json::parse(to_json(d));
+  EXPECT_TRUE(json["fit"]["closed_loop_rmse_m"]["nominal"].is_null());
+}
+
+TEST(MissingForce, IsATableOfTheAxisThatCarriesIt) {
+  Unexplained left;
+  left.axis = "velocity_m_per_s";
+  left.curve.low = {-0.5, 0};
+  left.curve.high = {0, 0.5};
+  left.curve.push_m_per_s2 = {0.125, -0.25};
+  left.curve.band_m_per_s2 = {0.01, 0.02};
+  EXPECT_EQ(missing_force_csv(left),
+            "velocity_m_per_s_low,velocity_m_per_s_high,push_m_per_s2,band_m_per_s2\n"
+            "-0.5,0,0.125,0.01\n0,0.5,-0.25,0.02\n");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "host/diagnose/held_out.hpp"
-#include "host/diagnose/window_errors.hpp"
+#include "host/diagnose/prediction_errors.hpp"
 
 namespace cartwright::blind {
 namespace {

@@ -1,0 +1,82 @@
+#include "host/diagnose/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/diagnose/basis.hpp"
+#include "tests/diagnose/independent_cart.hpp"
+
+namespace cartwright {
+namespace {
+
+using test::battery;
+using test::IndependentCart;
+
+class Profiles : public testing::Test {
+ protected:
+  /// Looks at the errors of the nominal terms, refitted to the battery of a cart.
+  void look_at(const IndependentCart& cart) {
+    session_ = battery(cart);
+    const Model start =
+        Model(1.87).set(Parameter::viscous_coefficient, 5.2).set(Parameter::coulomb_level, 0.41);
+    options_.damping_per_s = linear_damping(start);
+    const NoiseModel noise = search_noise(session_, start, options_);
+    fit_ = fit(session_, start, noise, free_parameters(start, facts_of(session_)), options_);
+    options_.outlier_m = 6 * robust_size(fit_.error_m);
+  }
+
+  Profile over_way() const { return spatial_frequency_profile(session_, fit_, options_, 2); }
+  Profile over_frequency() const { return frequency_profile(session_, fit_); }
+  Profile over_lag() const { return input_lag_profile(session_, fit_); }
+
+  Session session_;
+  FitOptions options_;
+  Fit fit_;
+};
+
+TEST_F(Profiles, AreFlatWhereNothingIsHidden) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    IndependentCart cart;
+    cart.seed = seed;
+    look_at(cart);
+    EXPECT_TRUE(over_way().flat()) << seed;
+    EXPECT_TRUE(over_frequency().flat()) << seed;
+    EXPECT_TRUE(over_lag().flat()) << seed;
+  }
+}
+
+TEST_F(Profiles, APushThatRepeatsOverTheWayStandsAtItsSpatialFrequency) {
+  constexpr double kPeriod_m = 0.021;
+  IndependentCart cart;
+  cart.push = [](double, double y, double) { return 0.2 * std::sin(2 * M_PI * y / kPeriod_m + 1); };
+  look_at(cart);
+  const Profile profile = over_way();
+  EXPECT_FALSE(profile.flat());
+  const double resolution_per_m = 1 / facts_of(session_).travel_m();
+  EXPECT_NEAR(profile.at[profile.strongest()], 1 / kPeriod_m, resolution_per_m);
+  EXPECT_GT(profile.share, 0);
+}
+
+TEST_F(Profiles, APushThatRepeatsInTimeStandsAtItsFrequency) {
+  IndependentCart cart;
+  cart.push = [](double t, double, double) { return 0.5 * std::sin(2 * M_PI * 23 * t); };
+  look_at(cart);
+  const Profile profile = over_frequency();
+  EXPECT_FALSE(profile.flat());
+  EXPECT_NEAR(profile.at[profile.strongest()], 23, 0.25) << "recordings of 4 s";
+}
+
+TEST_F(Profiles, AVoltageThatArrivesLateStandsAtTheFirstLags) {
+  IndependentCart cart;
+  cart.delay_ticks = 3;
+  look_at(cart);
+  const Profile profile = over_lag();
+  EXPECT_FALSE(profile.flat());
+  EXPECT_LE(profile.at[profile.strongest()], 4 * session_.rig.period_s());
+  EXPECT_LT(profile.value[profile.strongest()], 0)
+      << "a change has not yet pushed as the model thinks it has";
+}
+
+}  // namespace
+}  // namespace cartwright
