@@ -74,9 +74,9 @@ void add_design(CLI::App& app, int& exit_status) {
       "Status 1: no gains meet it.\n"
       "Examples:\n"
       "  cartwright design --model model.toml --session rig/monday --settling-time 0.5 --out gains.toml\n"
-      "  cartwright design --model model.toml --rig rig.toml --rise-time 0.2 --report design.html\n"
+      "  cartwright design --model model.toml --rig simulated.toml --rise-time 0.2 --report design.html\n"
       "  cartwright design --model model.toml --law pid --settling-time 0.8\n"
-      "  cartwright design --model lm3.toml --ideal --kp 100 --settling-time 0.5 --settling-band 0.01");
+      "  cartwright design --model model.toml --ideal --kp 100 --settling-time 0.5 --settling-band 0.01");
   auto options = std::make_shared<DesignOptions>();
   add_design_options(*command, *options);
   on_run(command, exit_status, [options, command] { return run(*options, *command); });

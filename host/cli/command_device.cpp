@@ -68,7 +68,7 @@ void add_device(CLI::App& app, int& exit_status) {
       "  cartwright device status\n"
       "  cartwright device run battery --out rig/monday\n"
       "  cartwright device gains flash gains.toml --host 192.168.1.20\n"
-      "  cartwright device compensation feedforward --model identified.toml\n"
+      "  cartwright device compensation feedforward --model model.toml\n"
       "  cartwright device watch");
   device->require_subcommand(1);
   add_device_status(*device, exit_status);

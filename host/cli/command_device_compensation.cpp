@@ -145,7 +145,7 @@ void add_device_compensation(CLI::App& device, int& exit_status) {
       "controller until it ends; [compensation] in the rig file holds them for longer. Terms of\n"
       "the model that have no inverse are left out, and named.\n\n"
       "Examples:\n"
-      "  cartwright device compensation feedforward --model identified.toml\n"
+      "  cartwright device compensation feedforward --model model.toml\n"
       "  cartwright device compensation adaptive --set adaptive_kf1=10\n"
       "  cartwright device compensation off\n"
       "  cartwright device compensation --json");

@@ -141,8 +141,9 @@ void add_identify(CLI::App& app, int& exit_status) {
       "Examples:\n"
       "  cartwright identify --session rig/monday --out model.toml\n"
       "  cartwright identify --session rig/monday --terms viscous_friction,cogging --out model.toml\n"
-      "  cartwright identify --session emps --drive 35.15065 --out emps.toml\n"
-      "  cartwright identify --session rig/monday --form piecewise --recording step.csv --out nl.toml\n"
+      "  cartwright identify --session emps --drive 35.15065 --out emps-model.toml\n"
+      "  cartwright identify --session rig/monday --form piecewise --recording step_kp60_1.csv --out "
+      "nl.toml\n"
       "  cartwright identify --session rig/monday --form piecewise --intervals 30 --slope 60 --out nl.toml");
   auto options = std::make_shared<Options>();
   command->add_option("--session", options->session, "directory with session.toml")->required();

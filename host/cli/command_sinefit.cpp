@@ -124,9 +124,9 @@ void add_sinefit(CLI::App& app, int& exit_status) {
       app.add_subcommand("sinefit", "Fit a sine to a column: amplitude, frequency, phase, offset");
   command->footer(
       "Examples:\n"
-      "  cartwright sinefit relay_a.csv --column y_m --from 4 --to 10\n"
-      "  cartwright sinefit relay_a.csv --from 4 --harmonics 5 --json\n"
-      "  cartwright sinefit track.csv --column y_m --frequency 0.5\n"
+      "  cartwright sinefit rig/monday/relay_a.csv --column y_m --from 4 --to 10\n"
+      "  cartwright sinefit rig/monday/relay_a.csv --from 4 --harmonics 5 --json\n"
+      "  cartwright sinefit rig/monday/track_a.csv --column y_m --frequency 0.5\n"
       "The time is the file's own, jitter and gaps included; rows with an empty cell are left out.");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "CSV file with t_s and the column")->required();

@@ -54,6 +54,44 @@ TEST(Help, OfEveryCommandHasExamplesThatNameIt) {
   EXPECT_GT(commands, 25u);
 }
 
+/// The examples of a command's help, as a user would type them.
+Words examples(const std::string& help) {
+  Words lines;
+  std::istringstream text(help.substr(help.find("Example")));
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("  cartwright ")) lines.push_back(line.substr(2));
+  }
+  return lines;
+}
+
+/// Those that need a controller at its usual port, many seconds, or files that only their user has, are left
+/// out.
+TEST(Help, ExamplesWorkAsTypedAfterABattery) {
+  const Scratch scratch;
+  const std::string examples_of_the_rig = CARTWRIGHT_EXAMPLES;
+  const Finished ready =
+      run("/bin/sh",
+          {"-c", "cd " + scratch.text("") + " && cp " + examples_of_the_rig +
+                     "/* . && cp cart.toml nominal.toml && mkdir rig && " CARTWRIGHTD_PROGRAM
+                     " --rig simulated.toml --virtual --once battery --out rig/monday && " CARTWRIGHTD_PROGRAM
+                     " --rig simulated.toml --virtual --once step --out rig/monday-gains && "
+                     "cp cart.toml sunday.toml"});
+  ASSERT_EQ(ready.status, 0) << ready.err;
+  std::size_t typed = 0;
+  for (const char* command : {"identify", "simulate", "evaluate", "sinefit", "relay-identify", "export",
+                              "plot", "report", "design"}) {
+    for (const std::string& line : examples(help({command}).out)) {
+      const auto says = [&line](const char* words) { return line.find(words) != std::string::npos; };
+      if (says("--session emps") || says("cogging") || says("--law pid")) continue;
+      const Finished finished = run("/bin/bash", {"-c", "cd " + scratch.text("") + " && cartwright() { " +
+                                                            CARTWRIGHT_PROGRAM " \"$@\"; } && " + line});
+      EXPECT_EQ(finished.status, 0) << line << "\n" << finished.err;
+      ++typed;
+    }
+  }
+  EXPECT_GE(typed, 14u);
+}
+
 TEST(Completion, KnowsEveryCommandOfTheHelp) {
   Scratch scratch;
   std::string script = "source <(" CARTWRIGHT_PROGRAM " completion bash)\n";
