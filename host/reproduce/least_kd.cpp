@@ -84,22 +84,23 @@ struct Search {
   }
 };
 
-report::Plot settling_plot(const std::string& name, const Model& model, const Loop& ideal, const Loop& real) {
+report::Plot settling_plot(const std::string& name, const Model& model, const Loop& ideal, const Loop& real,
+                           const Loop& stepped) {
   report::Plot plot;
   plot.title = name + ": settling time to 1 % over Kd, Kp = 100 V/m";
   plot.x = {"Kd", "V s/m"};
   plot.y = {.label = "settling time", .unit = "s", .least = 0, .greatest = 1.2};
-  report::Series of_ideal{.name = "Eq. (62), ideal law", .colour = report::Colour::model};
-  report::Series of_real{
-      .name = "sampled and limited", .colour = report::Colour::other_model, .dashed = true};
-  for (double kd = 0; kd <= kGreatestKd; kd += 0.05) {
-    of_ideal.x.push_back(kd);
-    of_ideal.y.push_back(settling_s(model, kd, ideal));
-    of_real.x.push_back(kd);
-    of_real.y.push_back(settling_s(model, kd, real));
-  }
-  plot.add(std::move(of_ideal));
-  plot.add(std::move(of_real));
+  const auto add = [&](const char* curve, const Loop& loop, report::Colour colour, bool dashed) {
+    report::Series series{.name = curve, .colour = colour, .dashed = dashed};
+    for (double kd = 0; kd <= kGreatestKd; kd += 0.05) {
+      series.x.push_back(kd);
+      series.y.push_back(settling_s(model, kd, loop));
+    }
+    plot.add(std::move(series));
+  };
+  add("stepped as a transfer function", stepped, report::Colour::reference, false);
+  add("Eq. (62), ideal law", ideal, report::Colour::model, false);
+  add("sampled and limited", real, report::Colour::other_model, true);
   plot.guides.push_back({report::Guide::Along::y, kSettled_s, "0.5 s"});
   return plot;
 }
@@ -152,7 +153,7 @@ Result<Section> least_derivative_gain(const ReproduceOptions& options) {
          fmt::format("the paper does not say over which time, nor for which of the laws; at the published Kd "
                      "the published value is the mean over {:.2f} s",
                      whole_square_voltage(one.model, one.published_kd, ideal) / one.published_V2)});
-    section.plots.push_back(settling_plot(one.name, one.model, ideal, real));
+    section.plots.push_back(settling_plot(one.name, one.model, ideal, real, stepped));
     options.progress(done += 0.25);
   }
   const Model& cart = cases[1].model;
