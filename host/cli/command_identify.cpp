@@ -8,6 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/gap_note.hpp"
 #include "host/cli/identify_output.hpp"
+#include "host/cli/progress.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright::cli {
@@ -103,7 +104,12 @@ Outcome run_recorded(const Options& options, const Session& session) {
   settings.instruments = !options.plain;
   if (options.force_scale.drive_N_per_V || options.force_scale.mass_kg)
     settings.force_scale = options.force_scale;
-  return finish(options, identify(session, *terms, settings));
+  const auto found = [&] {
+    ProgressBar bar("searching");
+    settings.progress = [&bar](double part) { bar.show(part); };
+    return identify(session, *terms, settings);
+  }();
+  return finish(options, found);
 }
 
 Outcome run_step(const Options& options, const Session& session) {

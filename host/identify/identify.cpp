@@ -23,12 +23,14 @@ struct FirstFit {
 };
 
 /// Least squares, the shapes searched for around it.
-FirstFit first_fit(const Problem& problem, const TermSet& terms) {
+FirstFit first_fit(const Problem& problem, const TermSet& terms,
+                   const std::function<void(double)>& progress) {
   Model shape;
   if (!terms.shapes().empty()) {
-    shape = search_shapes(terms.shapes(), problem.range(), [&](const Model& candidate) {
-      return problem.least_squares(problem.all_columns(candidate)).cost;
-    });
+    shape = search_shapes(
+        terms.shapes(), problem.range(),
+        [&](const Model& candidate) { return problem.least_squares(problem.all_columns(candidate)).cost; },
+        progress);
   }
   FirstFit out;
   out.columns = problem.all_columns(shape);
@@ -49,12 +51,12 @@ Result<Identification> identify(const Session& session, const TermSet& terms,
                     "find need at least {}",
                     problem.windows(), 1e3 * options.weak.window_s, unknowns, 2 * unknowns));
   }
-  FirstFit fit = first_fit(problem, terms);
+  FirstFit fit = first_fit(problem, terms, options.progress);
   // Smoothing blurs the moment of a reversal, where friction jumps; the model's own velocity does not.
   if (terms.has(Term::coulomb_friction) && fit.linear.null_directions.cols() == 0) {
     Problem sharper = problem;
     sharper.take_velocities(fit.model);
-    FirstFit second = first_fit(sharper, terms);
+    FirstFit second = first_fit(sharper, terms, options.progress);
     if (second.linear.cost < fit.linear.cost) {
       problem = std::move(sharper);
       fit = std::move(second);

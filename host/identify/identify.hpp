@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/model/model.hpp"
@@ -19,6 +20,7 @@ struct IdentifyOptions {
   bool instruments = true;                ///< use a simulated twin where the control law is known
   int draws = 500;                        ///< resamplings behind the intervals
   std::optional<ForceScale> force_scale;  ///< report forces as well
+  std::function<void(double)> progress;   ///< hears which part of the search for shapes is done
 };
 
 /// One number of the model; its interval is left open where the data gives none.

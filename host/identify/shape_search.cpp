@@ -64,6 +64,18 @@ Axis axis_of(Parameter parameter, const DataRange& range) {
   }
 }
 
+/// How many candidates one sweep tries: the shapes of one term, neighbours in the list, together.
+double candidates_on_grids(const std::vector<Axis>& axes) {
+  double all = 0, of_term = 1;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    of_term *= static_cast<double>(axes[i].grid.size());
+    if (i + 1 < axes.size() && info(axes[i + 1].parameter).term == info(axes[i].parameter).term) continue;
+    all += of_term;
+    of_term = 1;
+  }
+  return all;
+}
+
 /// Nelder and Mead (1965) in scaled coordinates.
 std::vector<double> descend(std::vector<double> start, const std::vector<double>& scale,
                             const std::function<double(const std::vector<double>&)>& cost) {
@@ -124,7 +136,8 @@ std::vector<double> descend(std::vector<double> start, const std::vector<double>
 }  // namespace
 
 Model search_shapes(const std::vector<Parameter>& shapes, const DataRange& range,
-                    const std::function<double(const Model&)>& cost) {
+                    const std::function<double(const Model&)>& cost,
+                    const std::function<void(double)>& progress) {
   Model best;
   std::vector<Axis> axes;
   for (const Parameter shape : shapes) {
@@ -133,6 +146,8 @@ Model search_shapes(const std::vector<Parameter>& shapes, const DataRange& range
   }
   std::vector<double> scale(axes.size(), 0.0);
   const int sweeps = axes.size() > 1 ? 2 : 1;
+  const double total = sweeps * candidates_on_grids(axes);
+  double tried = 0;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t first = 0; first < axes.size();) {
       // The shapes of one term (neighbours in the list) are searched together.
@@ -146,6 +161,7 @@ Model search_shapes(const std::vector<Parameter>& shapes, const DataRange& range
         for (std::size_t i = first; i < last; ++i)
           candidate.set(axes[i].parameter, axes[i].grid[at[i - first]]);
         const double value = cost(candidate);
+        if (progress) progress(++tried / total);
         if (value < least) {
           least = value;
           best = candidate;

@@ -18,8 +18,10 @@ struct DataRange {
 };
 
 /// Finds the values of `shapes` that minimise `cost`: a grid over each term's own shapes in turn, twice, then
-/// a Nelder-Mead descent over all of them. Returns a model that holds them.
+/// a Nelder-Mead descent over all of them. Returns a model that holds them. `progress` hears which part of
+/// the grids, nearly all of the work, is done.
 Model search_shapes(const std::vector<Parameter>& shapes, const DataRange& range,
-                    const std::function<double(const Model&)>& cost);
+                    const std::function<double(const Model&)>& cost,
+                    const std::function<void(double)>& progress = {});
 
 }  // namespace cartwright

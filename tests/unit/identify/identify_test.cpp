@@ -186,6 +186,17 @@ TEST(Identify, FrictionThatIsNotThereLiesAtItsBound) {
   EXPECT_GE(coulomb.estimate.low, 0);
 }
 
+TEST(Identify, SaysHowFarItsSearchForShapesIs) {
+  const Session session = SimulatedSession(cart()).add_usual(1).get();
+  IdentifyOptions options;
+  std::vector<double> parts;
+  options.progress = [&parts](double part) { parts.push_back(part); };
+  ASSERT_TRUE(identify(session, *TermSet::create({Term::stribeck_friction}), options));
+  ASSERT_GE(parts.size(), 20u);
+  EXPECT_GT(parts.front(), 0);
+  EXPECT_NEAR(parts.back(), 1, 1e-12);
+}
+
 TEST(Identify, SaysWhichTermsItCannotFit) {
   const auto set = TermSet::create({Term::backlash});
   ASSERT_FALSE(set);
