@@ -290,7 +290,7 @@ class Diagnostician {
       evidence.rivals += weight;
       if (behind < kEquivalentNats && paired_z(winner->fit, other.fit) < kEquivalentZ)
         effect.equivalent.push_back(other.effects.back());
-      result_.runner_up.push_back({other.effects.back(), weight, behind});
+      result_.runner_up.push_back({other.effects.back(), contest.chosen, weight, behind});
     }
     evidence.equivalent = static_cast<int>(effect.equivalent.size());
     effect.confidence = confidence(evidence);

@@ -37,6 +37,7 @@ struct Effect {
 
 struct RunnerUp {
   Term term;
+  Term instead_of;  ///< the effect in whose place it was fitted
   double confidence = 0;
   double score_behind = 0;  ///< nats behind the chosen
 };

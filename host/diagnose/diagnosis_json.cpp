@@ -121,6 +121,7 @@ std::string to_json(const Diagnosis& d) {
   json["runner_up"] = Json::array();
   for (const RunnerUp& other : d.runner_up) {
     json["runner_up"].push_back({{"name", info(other.term).name},
+                                 {"instead_of", info(other.instead_of).name},
                                  {"confidence", number(other.confidence)},
                                  {"score_behind_nats", number(other.score_behind)}});
   }

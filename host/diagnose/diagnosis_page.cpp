@@ -14,6 +14,8 @@ namespace {
 
 using namespace report;
 
+constexpr std::size_t kRunnersUpShown = 8;  // all are in diagnosis.json
+
 Cell micrometres(double value_m) {
   return Cell::number(1e6 * value_m, 3);
 }
@@ -156,13 +158,16 @@ void better(Report& page, const Diagnosis& d, const Session& session, const Mode
 void what_else(Report& page, const Diagnosis& d) {
   page.section("What else could it be?");
   if (!d.runner_up.empty()) {
-    Table others{"Others fitted in its place, everything else refitted alongside",
-                 {{"effect"}, {"log-likelihood behind", "nats"}, {"confidence"}},
-                 {},
-                 "Ten nats and more is beyond doubt where the noise is as fitted."};
+    Table others{
+        "Others, each fitted in the place of an effect and everything else refitted alongside",
+        {{"effect"}, {"instead of"}, {"log-likelihood behind", "nats"}, {"confidence"}},
+        {},
+        "Ten nats and more is beyond doubt where the noise is as fitted; below zero it scored higher, "
+        "with more numbers."};
     for (const RunnerUp& other : d.runner_up) {
-      others.row({std::string(info(other.term).name), Cell::number(other.score_behind, 3),
-                  Cell::number(other.confidence, 2)});
+      if (others.rows.size() == kRunnersUpShown) break;
+      others.row({std::string(info(other.term).name), std::string(info(other.instead_of).name),
+                  Cell::number(other.score_behind, 3), Cell::number(other.confidence, 2)});
     }
     page.table(others);
   } else {

@@ -19,6 +19,9 @@ double chance_bar(double freedom, double upper_normal) {
   return 0.5 * freedom * root * root * root;
 }
 
+/// Of a map's directions only those are shown that the data tell this well beside the best told one.
+constexpr double kLeastTold = 1e-3;
+
 AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
                double damping, double looks) {
   AxisMap map{axis.axis, axis.parity, {}, {}, {}, {}, 0, 0, 0};
@@ -39,13 +42,20 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   }
   basis.project_out(columns);
   Eigen::MatrixXd h = columns.transpose() * columns;
-  h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
   const Eigen::VectorXd g = columns.transpose() * basis.e;
-  const auto solver = h.ldlt();
-  const Eigen::VectorXd x = solver.solve(g);
-  const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(bins, bins));
+  // What the model's own numbers could do as well (a constant, beside a free constant force) is not shown:
+  // pushes are the smallest that explain the errors.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(h);
+  const double least = kLeastTold * axes.eigenvalues().maxCoeff();
+  const Eigen::VectorXd inverse_of_told =
+      (axes.eigenvalues().array() > least).select(1 / axes.eigenvalues().array(), 0);
+  const Eigen::MatrixXd inverse =
+      axes.eigenvectors() * inverse_of_told.asDiagonal() * axes.eigenvectors().transpose();
+  const Eigen::VectorXd x = inverse * g;
+  h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
+  const double explained = g.dot(h.ldlt().solve(g));
   const double ee = basis.e.squaredNorm();
-  map.gain = -0.5 * static_cast<double>(basis.e.size()) * std::log(std::max(1 - x.dot(g) / ee, 1e-9));
+  map.gain = -0.5 * static_cast<double>(basis.e.size()) * std::log(std::max(1 - explained / ee, 1e-9));
   constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
   // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.

@@ -112,10 +112,6 @@ void add_location(Report& page, const Diagnosis& d) {
   }
   if (!plots.empty()) page.plots(plots, 2);
   if (!flat.empty()) page.note("Looked at and flat: " + flat + ".");
-  if (d.before.line.gain > 10) {
-    page.paragraph(
-        fmt::format("A line at {:.3g} Hz stands in the spectrum of the errors.", d.before.line.frequency_hz));
-  }
   if (d.before.repeat_z != 0) {
     page.note(
         fmt::format("Repeats of the same reference have {:.0f} % of the smoothed error in common ({:.1f} "
