@@ -26,9 +26,10 @@ constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
 constexpr double kToleranceOfSketch = 2.0;  // nats
 constexpr double kNoiseStepOfSketch = 0.15;
-constexpr double kNearTheBest = 0.7;        // of the best gain
-constexpr double kWorthFinishing = 0.3;     // of the best gain
-constexpr double kLeastShareOfBest = 0.03;  // of the best promise
+constexpr double kNearTheBest = 0.7;          // of the best gain
+constexpr double kWorthFinishing = 0.3;       // of the best gain
+constexpr double kLeastShareOfBest = 0.03;    // of the best promise
+constexpr std::size_t kRivalsAskedAgain = 2;  // of each effect, once there are further ones
 /// The lines of an encoder stand no nearer to their places than half a count: a smaller error is the encoder
 /// itself, not the way it was mounted.
 constexpr double kLeastEccentricity = 0.5;
@@ -68,6 +69,7 @@ class Explainer {
       contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
                                   std::make_move_iterator(tried.end()));
       search.contests.push_back(std::move(contest));
+      swap_stand_ins(search);
       drop_redundant(search);
     }
     report("done", 1);
@@ -131,7 +133,7 @@ class Explainer {
     if (lost) tried.push_back(*lost);
     tried = best_per_term(std::move(tried));
     finish_best(tried, base.score());
-    std::erase_if(tried, [this](const Explanation& one) { return !plausible(one); });
+    std::erase_if(tried, [this](const Explanation& one) { return !plausible(one, one.effects.back()); });
     put_simplest_first(tried, base.score());
     return tried;
   }
@@ -159,9 +161,8 @@ class Explainer {
     std::rotate(tried.begin(), simplest, simplest + 1);
   }
 
-  /// The newest effect of an explanation has numbers that its physics can have and this rig can show.
-  bool plausible(const Explanation& one) const {
-    const Term term = one.effects.back();
+  /// An effect of an explanation has numbers that its physics can have and this rig can show.
+  bool plausible(const Explanation& one, Term term) const {
     for (const FreeParameter& p : one.fit.free) {
       const bool optional = info(p.id).default_value.has_value();  // rigid teeth are teeth
       if (info(p.id).term == term && !optional && p.logarithmic && one.fit.at_bound(p.id)) return false;
@@ -289,6 +290,57 @@ class Explainer {
     if (further.score() - without.score() >= bar) return false;
     if (without.score() > search.best.score()) search.best = std::move(without);
     return true;
+  }
+
+  /// An explanation refitted with another term in the place of one of its effects, which starts as it was
+  /// found.
+  Explanation in_place_of(const Explanation& from, std::size_t effect, const Explanation& rival) const {
+    Explanation swapped = from;
+    const Term old = from.effects[effect], term = rival.effects.back();
+    swapped.effects[effect] = term;
+    Model model = from.fit.model;
+    model.remove(old);
+    if (term == Term::external_disturbance)
+      model.disturbance_recording = rival.fit.model.disturbance_recording;
+    std::vector<FreeParameter> free;
+    for (const FreeParameter& p : from.fit.free) {
+      if (info(p.id).term != old) free.push_back(p);
+    }
+    for (const FreeParameter& p : rival.fit.free) {
+      if (info(p.id).term != term) continue;
+      free.push_back(p);
+      model.set(p.id, rival.fit.model[p.id]);
+    }
+    swapped.fit = fit(without_jumps(session_, from.jumps), model, from.fit.noise, free,
+                      with_kinks(model, fit_options_));
+    return swapped;
+  }
+
+  /// An effect found early may have stood in for a rival that does better beside what was found later.
+  void swap_stand_ins(Search& search) const {
+    if (slow(search.best)) return;
+    for (std::size_t i = 0; i + 1 < search.contests.size(); ++i) {
+      Contest& contest = search.contests[i];
+      std::vector<Explanation> rivals;
+      for (const Explanation& rival : contest.alternatives) {
+        const Term term = rival.effects.back();
+        if (rivals.size() == kRivalsAskedAgain) break;
+        if (!search.best.has(term) && !two_masses(term) && term != Term::encoder_missed_counts)
+          rivals.push_back(rival);
+      }
+      if (contest.chosen == Term::encoder_missed_counts || rivals.empty()) continue;
+      parallel_for(rivals.size(), options_.threads,
+                   [&](std::size_t n) { rivals[n] = in_place_of(search.best, i, rivals[n]); });
+      for (const Explanation& swapped : rivals) {
+        const double better = swapped.score() - search.best.score();
+        if (better <= 0 || !plausible(swapped, swapped.effects[i])) continue;
+        Explanation beaten = search.best;
+        std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
+                    beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
+        contest = {swapped.effects[i], contest.gain + better, swapped, {std::move(beaten)}};
+        search.best = swapped;
+      }
+    }
   }
 
   /// An effect found early may only have stood in for one found later.

@@ -53,8 +53,8 @@ inline constexpr double kLeastGain = 12.0;
 inline constexpr double kLeastShareOfGain = 0.03;
 
 /// Refits the nominal model, then adds one effect at a time from the whole vocabulary, each time the one that
-/// explains most with everything refitted, until none is worth its numbers; then drops what has become
-/// redundant.
+/// explains most with everything refitted, until none is worth its numbers. After each, rivals of the earlier
+/// ones are asked again in their places, and what has become redundant is dropped.
 Search explain(const Session& session, const Model& nominal, const SearchOptions& options = {});
 
 }  // namespace cartwright
