@@ -20,6 +20,16 @@ Cell micrometres(double value_m) {
   return Cell::number(1e6 * value_m, 3);
 }
 
+/// A statement's plain characters as a page can show them.
+std::string typeset(std::string text) {
+  for (const auto& [plain, shown] :
+       {std::pair<std::string_view, std::string_view>{"+-", "±"}, {"/s^2", "/s²"}}) {
+    for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain, at + shown.size()))
+      text.replace(at, plain.size(), shown);
+  }
+  return text;
+}
+
 void verdict(Report& page, const Diagnosis& d) {
   std::string detail = fmt::format(
       "0.5 s windows of the recorded voltage: nominal model {:.3g} µm rms, refitted {:.3g} µm, with what was "
@@ -35,7 +45,8 @@ void verdict(Report& page, const Diagnosis& d) {
       return;
     case Verdict::missing_physics: {
       std::string sentence;
-      for (const Effect& effect : d.effects) sentence += (sentence.empty() ? "" : " ") + effect.statement;
+      for (const Effect& effect : d.effects)
+        sentence += (sentence.empty() ? "" : " ") + typeset(effect.statement);
       page.verdict(Tone::attention, sentence, detail);
       return;
     }
