@@ -10,6 +10,7 @@
 #include "host/diagnose/diagnosis_json.hpp"
 #include "host/diagnose/diagnosis_page.hpp"
 #include "host/diagnose/hygiene.hpp"
+#include "host/diagnose/statement.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright::cli {
@@ -41,6 +42,8 @@ void print_summary(const Diagnosis& d, const std::string& out) {
   if (d.unexplained) {
     fmt::print("  unexplained: {:.0f} % of what is missing; most of it along {}\n",
                100 * d.unexplained->share_left, d.unexplained->axis);
+    const std::string periods = statement_of_periods(d.unexplained->periods_m);
+    if (!periods.empty()) fmt::print("  {}\n", periods);
     if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);
   }
   for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);

@@ -33,6 +33,8 @@ constexpr double kGainOverPromise = 5.0;
 constexpr double kEquivalentZ = 2.5;
 constexpr double kEquivalentNats = 10;
 
+constexpr std::size_t kPeriodsTold = 3;
+
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
 }
@@ -180,6 +182,8 @@ class Diagnostician {
     left.share_left = share_left;
     left.where = where_of(result_.after);
     left.line = result_.after.line;
+    const Profile& over_way = (refused ? result_.before : result_.after).profiles.front();
+    for (const std::size_t i : over_way.lines(kPeriodsTold)) left.periods_m.push_back(1 / over_way.at[i]);
     const auto carrier =
         std::max_element(result_.after.axes.begin(), result_.after.axes.end(),
                          [](const AxisMap& a, const AxisMap& b) { return a.gain - a.bar < b.gain - b.bar; });

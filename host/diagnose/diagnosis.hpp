@@ -60,6 +60,7 @@ struct Unexplained {
   std::string axis;  ///< the axis that carries most of it
   AxisMap curve;     ///< the missing push along that axis, with its band
   SpectralLine line;
+  std::vector<double> periods_m;  ///< of pushes that repeat over the way, strongest first
   std::optional<Term> closest;
   std::string why_refused;
 };

@@ -107,6 +107,7 @@ Json unexplained_json(const std::optional<Unexplained>& left) {
           {"where", where_json(left->where)},
           {"axis", left->axis},
           {"missing_force", map_json(left->curve)},
+          {"periods_m", numbers(left->periods_m)},
           {"closest", left->closest ? Json(info(*left->closest).name) : Json(nullptr)},
           {"why_refused", left->why_refused}};
 }

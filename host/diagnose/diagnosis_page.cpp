@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/diagnose/location_page.hpp"
+#include "host/diagnose/statement.hpp"
 #include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/replay.hpp"
 
@@ -96,6 +97,8 @@ void what(Report& page, const Diagnosis& d) {
                     "itself, usable as a table.",
                     100 * d.unexplained->share_left, d.unexplained->axis));
     page.plot(map_plot(d.unexplained->curve, {}));
+    const std::string periods = statement_of_periods(d.unexplained->periods_m);
+    if (!periods.empty()) page.paragraph(periods);
   }
 }
 

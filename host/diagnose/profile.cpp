@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "host/diagnose/position_spectrum.hpp"
 
@@ -23,6 +24,21 @@ void set_bars(Profile& profile) {
 std::size_t Profile::strongest() const {
   const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
   return static_cast<std::size_t>(std::max_element(value.begin(), value.end(), size) - value.begin());
+}
+
+std::vector<std::size_t> Profile::lines(std::size_t most) const {
+  constexpr std::size_t kFoot = 8;  // points: the first side lobes of a line over the way
+  std::vector<std::size_t> order(value.size()), lines;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return std::abs(value[a]) > std::abs(value[b]); });
+  for (const std::size_t i : order) {
+    if (lines.size() == most || std::abs(value[i]) <= bar) break;
+    const bool foot = std::any_of(lines.begin(), lines.end(),
+                                  [&](std::size_t j) { return (i > j ? i - j : j - i) < kFoot; });
+    if (!foot) lines.push_back(i);
+  }
+  return lines;
 }
 
 bool Profile::flat() const {

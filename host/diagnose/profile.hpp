@@ -17,6 +17,9 @@ struct Profile {
   double share = 0;           ///< of the squared errors that the strongest point explains
 
   std::size_t strongest() const;
+  /// Indices of the peaks above the bar, strongest first; none within a few points of a stronger one, whose
+  /// foot it would be.
+  std::vector<std::size_t> lines(std::size_t most) const;
   bool flat() const;
 };
 

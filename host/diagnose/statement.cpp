@@ -91,4 +91,11 @@ std::string statement(Term term, const Model& m) {
   return {};
 }
 
+std::string statement_of_periods(const std::vector<double>& periods_m) {
+  if (periods_m.empty()) return {};
+  std::vector<std::string> words;
+  for (const double period_m : periods_m) words.push_back(fmt::format("{:.4g} mm", 1e3 * period_m));
+  return fmt::format("A push that repeats every {} is left without a name.", fmt::join(words, ", every "));
+}
+
 }  // namespace cartwright

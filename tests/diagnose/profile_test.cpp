@@ -58,6 +58,20 @@ TEST_F(Profiles, APushThatRepeatsOverTheWayStandsAtItsSpatialFrequency) {
   EXPECT_GT(profile.share, 0);
 }
 
+TEST_F(Profiles, TwoPushesAreTwoLines) {
+  IndependentCart cart;
+  cart.push = [](double, double y, double) {
+    return 0.3 * std::sin(2 * M_PI * y / 0.021 + 1) + 0.2 * std::sin(2 * M_PI * y / 0.009);
+  };
+  look_at(cart);
+  const Profile profile = over_way();
+  const std::vector<std::size_t> lines = profile.lines(2);
+  ASSERT_EQ(lines.size(), 2u);
+  const double resolution_per_m = 1 / facts_of(session_).travel_m();
+  EXPECT_NEAR(profile.at[lines[0]], 1 / 0.021, resolution_per_m);
+  EXPECT_NEAR(profile.at[lines[1]], 1 / 0.009, resolution_per_m);
+}
+
 TEST_F(Profiles, APushThatRepeatsInTimeStandsAtItsFrequency) {
   IndependentCart cart;
   cart.push = [](double t, double, double) { return 0.5 * std::sin(2 * M_PI * 23 * t); };
