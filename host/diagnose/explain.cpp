@@ -89,11 +89,14 @@ class Explainer {
     return free;
   }
 
+  static bool every_cart_has(Term term) {
+    return term == Term::viscous_friction || term == Term::coulomb_friction || term == Term::constant_force;
+  }
+
   /// A nominal model may lack what every cart has; that it is found must not end the search for the rest.
   static std::size_t effects_beyond_every_cart(const Explanation& one) {
-    return static_cast<std::size_t>(std::count_if(one.effects.begin(), one.effects.end(), [](Term term) {
-      return term != Term::viscous_friction && term != Term::coulomb_friction && term != Term::constant_force;
-    }));
+    const auto has = std::count_if(one.effects.begin(), one.effects.end(), every_cart_has);
+    return one.effects.size() - static_cast<std::size_t>(has);
   }
 
   void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }
@@ -316,11 +319,13 @@ class Explainer {
     return swapped;
   }
 
-  /// An effect found early may have stood in for a rival that does better beside what was found later.
+  /// An effect found early may have stood in for a rival that does better beside what was found later. What
+  /// every cart has stands in for nothing.
   void swap_stand_ins(Search& search) const {
     if (slow(search.best)) return;
     for (std::size_t i = 0; i + 1 < search.contests.size(); ++i) {
       Contest& contest = search.contests[i];
+      if (every_cart_has(contest.chosen) || contest.chosen == Term::encoder_missed_counts) continue;
       std::vector<Explanation> rivals;
       for (const Explanation& rival : contest.alternatives) {
         const Term term = rival.effects.back();
@@ -328,12 +333,11 @@ class Explainer {
         if (!search.best.has(term) && !two_masses(term) && term != Term::encoder_missed_counts)
           rivals.push_back(rival);
       }
-      if (contest.chosen == Term::encoder_missed_counts || rivals.empty()) continue;
       parallel_for(rivals.size(), options_.threads,
                    [&](std::size_t n) { rivals[n] = in_place_of(search.best, i, rivals[n]); });
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
-        if (better <= 0 || !plausible(swapped, swapped.effects[i])) continue;
+        if (better < kLeastGain || !plausible(swapped, swapped.effects[i])) continue;
         Explanation beaten = search.best;
         std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
                     beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
