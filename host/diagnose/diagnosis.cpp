@@ -344,6 +344,10 @@ class Diagnostician {
       result_.remarks.push_back(
           "The cart moves against the voltage: the sign of y_m or of u_V, or the wiring, is reversed.");
     }
+    if (result_.unexplained && result_.unexplained->axis == "recording") {
+      result_.remarks.push_back(
+          "What is missing differs between recordings: another cart, load or setting, or one that changed.");
+    }
     if (list.size() == 1) result_.remarks.push_back("One recording only: nothing could be held out.");
     if (std::none_of(list.begin(), list.end(), [](const Recording& r) { return !r.repeat_of.empty(); })) {
       result_.remarks.push_back("No repeats: the noise floor rests on the fitted noise alone.");
