@@ -16,9 +16,9 @@ constexpr std::size_t kTermsFitted = 5;      // most terms fitted after a screen
 constexpr std::size_t kTermsFittedSlow = 2;  // the same on top of two masses, which cost ten times the time
 constexpr std::size_t kStartsFitted = 2;     // most starts of one term
 constexpr double kLeastPromise = 3.0;        // nats, to be fitted at all
-/// A fit gains more than its start promises: up to 7 times in carts of all terms, 16 times for a flexible
-/// coupling.
-constexpr double kMostGainOverPromise = 20.0;
+/// A fit gains more than its start promises: up to 7 times in carts of all terms. (16 times for a flexible
+/// coupling, but one that large is far above what it would have to promise.)
+constexpr double kMostGainOverPromise = 10.0;
 /// Ends a search that keeps finding what it drops again.
 constexpr std::size_t kMostStages = 8;
 constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
