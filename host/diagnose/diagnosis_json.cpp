@@ -133,15 +133,14 @@ std::string to_json(const Diagnosis& d) {
                                              {"low", number(p.refitted.low)},
                                              {"high", number(p.refitted.high)}};
   }
-  json["fit"] = {{"window_rmse_m", errors_json(d.used)},
-                 {"closed_loop_rmse_m", errors_json(d.used_closed_loop)}};
+  json["fit"] = {{"window_rmse_m", errors_json(d.used)}, {"held_out", nullptr}};
   json["fit"]["window_rmse_m"]["noise_floor"] = number(d.noise_floor_m);
-  json["fit"]["held_out"] = nullptr;
+  json["closed_loop_rmse_m"] = {{"used", errors_json(d.used_closed_loop)}, {"held_out", nullptr}};
   if (!d.held_out_recordings.empty()) {
     Json held{{"recordings", d.held_out_recordings}};
     held.update(errors_json(d.held_out));
-    held["closed_loop_rmse_m"] = errors_json(d.held_out_closed_loop);
     json["fit"]["held_out"] = held;
+    json["closed_loop_rmse_m"]["held_out"] = errors_json(d.held_out_closed_loop);
   }
   json["unexplained"] = unexplained_json(d.unexplained);
   json["next_experiment"] = nullptr;

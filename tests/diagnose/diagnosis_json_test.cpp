@@ -32,13 +32,13 @@ TEST(ClosedLoopErrors, AreThereWhereThereIsAController) {
   d.used_closed_loop = {1e-3, 7e-4, 9e-5};
   auto json = nlohmann::json::parse(to_json(d));
   EXPECT_EQ(json["fit"]["window_rmse_m"]["with_effects"], 8e-5);
-  EXPECT_EQ(json["fit"]["closed_loop_rmse_m"]["with_effects"], 9e-5);
+  EXPECT_EQ(json["closed_loop_rmse_m"]["used"]["with_effects"], 9e-5);
   EXPECT_TRUE(json["fit"]["held_out"].is_null());
 
   const double none = std::numeric_limits<double>::quiet_NaN();
   d.used_closed_loop = {none, none, none};
   json = nlohmann::json::parse(to_json(d));
-  EXPECT_TRUE(json["fit"]["closed_loop_rmse_m"]["nominal"].is_null());
+  EXPECT_TRUE(json["closed_loop_rmse_m"]["used"]["nominal"].is_null());
 }
 
 TEST(MissingForce, IsATableOfTheAxisThatCarriesIt) {
