@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/session/segments.hpp"
+#include "host/session/rate.hpp"
 
 namespace cartwright {
 namespace {
@@ -34,13 +34,8 @@ Result<std::vector<std::string>> check_hygiene(const Session& session) {
   for (const Recording& r : session.recordings) {
     if (r.size() < 2)
       return failure(fmt::format("{}: {} rows; a recording needs at least two", r.file, r.size()));
-    const double step_s = median_period_s(r.t_s);
-    if (std::abs(step_s * rig.sample_rate_hz - 1) > kMostRateError) {
-      return failure(fmt::format(
-          "{}: rows are {:.4g} ms apart, but session.toml says sample_rate_hz = {:.6g}; {:.4g} would "
-          "be right",
-          r.file, 1e3 * step_s, rig.sample_rate_hz, 1 / step_s));
-    }
+    const auto rate = check_rate(r, rig, kMostRateError, r.file);
+    if (!rate) return tl::unexpected(rate.error());
     const bool moves = travel_m(r) > kLeastTravel_counts * rig.encoder_resolution_m;
     anything_moves = anything_moves || moves;
     if (!moves) {

@@ -10,6 +10,7 @@
 
 #include "host/session/even_rows.hpp"
 #include "host/session/json_rows.hpp"
+#include "host/session/rate.hpp"
 #include "host/session/segments.hpp"
 
 namespace cartwright {
@@ -21,8 +22,6 @@ namespace fs = std::filesystem;
 constexpr double kMostSpan_m = 50;
 constexpr double kMostVoltage_V = 5000;
 constexpr double kLeastRate_hz = 2, kMostRate_hz = 1e6;
-/// How far the rate that time implies may lie from the one the rig gives.
-constexpr double kRateTolerance = 0.1;
 
 /// Where a line of the map is read from: gives the numbers of one channel.
 using ChannelReader = std::function<Result<std::vector<double>>(const ChannelSource&)>;
@@ -103,7 +102,7 @@ double greatest(const std::vector<double>& values) {
 /// Refuses numbers that cannot be metres, volts and seconds, and says which scale would be the usual mend.
 Result<void> plausible(const Recording& recording, const ImportMap& map, const std::string& source) {
   const double rate_hz = 1 / median_period_s(recording.t_s);
-  if (map.rate_given && std::abs(rate_hz / map.rig.sample_rate_hz - 1) > kRateTolerance) {
+  if (map.rate_given && !same_rate(rate_hz, map.rig.sample_rate_hz)) {
     return failure(
         fmt::format("{}: t_s as mapped in {} implies {:.6g} Hz, [rig] says sample_rate_hz = {:.6g}: check "
                     "the scale of t_s (milliseconds need scale = 1e-3)",
@@ -194,7 +193,7 @@ Result<Session> import_session(std::span<const fs::path> files, const ImportMap&
                                  file.string(), recording->file));
     }
     const double rate = 1 / median_period_s(recording->t_s);
-    if (rate_hz > 0 && std::abs(rate / rate_hz - 1) > kRateTolerance) {
+    if (rate_hz > 0 && !same_rate(rate, rate_hz)) {
       return failure(
           fmt::format("{}: {:.6g} Hz, the files before have {:.6g} Hz; a session has one sample rate",
                       file.string(), rate, rate_hz));

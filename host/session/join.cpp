@@ -3,19 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
+#include "host/session/rate.hpp"
+
 namespace cartwright {
-namespace {
-
-constexpr double kRateTolerance = 0.1;
-
-}  // namespace
-
 Result<Session> joined(Session before, Session more) {
   Rig& rig = before.rig;
-  if (std::abs(more.rig.sample_rate_hz / rig.sample_rate_hz - 1) > kRateTolerance) {
+  if (!same_rate(more.rig.sample_rate_hz, rig.sample_rate_hz)) {
     return failure(fmt::format("{:.6g} Hz, the session there has {:.6g} Hz; a session has one sample rate",
                                more.rig.sample_rate_hz, rig.sample_rate_hz));
   }

@@ -10,7 +10,7 @@
 #include "common/config/toml_reader.hpp"
 #include "common/config/toml_text.hpp"
 #include "host/session/files.hpp"
-#include "host/session/segments.hpp"
+#include "host/session/rate.hpp"
 
 namespace cartwright {
 namespace {
@@ -40,16 +40,6 @@ Result<Recording> read_entry(const TomlReader& entry) {
 
 /// More than any jitter of the median step, less than any mistaken rate.
 constexpr double kMostRateError = 0.2;
-
-/// A control law runs at sample_rate_hz: on rows of another rate it would be another law.
-Result<void> check_rate(const Recording& recording, const Rig& rig, const std::string& source) {
-  const double step_s = median_period_s(recording.t_s);
-  if (!recording.has_controller() || std::abs(step_s * rig.sample_rate_hz - 1) <= kMostRateError) return {};
-  return failure(
-      fmt::format("{}: rows are {:.4g} ms apart, but session.toml says sample_rate_hz = {:.6g}; {:.4g} would "
-                  "be right",
-                  source, 1e3 * step_s, rig.sample_rate_hz, 1 / step_s));
-}
 
 }  // namespace
 
@@ -124,8 +114,12 @@ Result<Session> read_session(const fs::path& directory) {
     if (!table) return tl::unexpected(table.error());
     const auto taken = take_columns(*recording, std::move(*table), (directory / recording->file).string());
     if (!taken) return tl::unexpected(taken.error());
-    const auto rate = check_rate(*recording, session.rig, (directory / recording->file).string());
-    if (!rate) return tl::unexpected(rate.error());
+    // A control law runs at sample_rate_hz: on rows of another rate it would be another law.
+    if (recording->has_controller()) {
+      const auto rate =
+          check_rate(*recording, session.rig, kMostRateError, (directory / recording->file).string());
+      if (!rate) return tl::unexpected(rate.error());
+    }
     session.recordings.push_back(std::move(*recording));
   }
   for (const Recording& recording : session.recordings) {
