@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -268,6 +269,14 @@ class Explainer {
     return kept;
   }
 
+  /// The parameters of a fit that are not of this term.
+  static std::vector<FreeParameter> free_beside(const Fit& fit, Term term) {
+    std::vector<FreeParameter> free;
+    std::copy_if(fit.free.begin(), fit.free.end(), std::back_inserter(free),
+                 [&](const FreeParameter& p) { return info(p.id).term != term; });
+    return free;
+  }
+
   /// An explanation refitted from where it is, one of its effects taken out.
   Explanation doing_without(const Explanation& from, std::size_t effect) const {
     Explanation without = from;
@@ -275,12 +284,8 @@ class Explainer {
     without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
     Model model = from.fit.model;
     model.remove(term);
-    std::vector<FreeParameter> free;
-    for (const FreeParameter& p : from.fit.free) {
-      if (info(p.id).term != term) free.push_back(p);
-    }
-    const Session data = without_jumps(session_, without.jumps);
-    without.fit = fit(data, model, from.fit.noise, free, with_kinks(model, fit_options_));
+    without.fit = fit(without_jumps(session_, without.jumps), model, from.fit.noise,
+                      free_beside(from.fit, term), with_kinks(model, fit_options_));
     return without;
   }
 
@@ -305,10 +310,7 @@ class Explainer {
     model.remove(old);
     if (term == Term::external_disturbance)
       model.disturbance_recording = rival.fit.model.disturbance_recording;
-    std::vector<FreeParameter> free;
-    for (const FreeParameter& p : from.fit.free) {
-      if (info(p.id).term != old) free.push_back(p);
-    }
+    std::vector<FreeParameter> free = free_beside(from.fit, old);
     for (const FreeParameter& p : rival.fit.free) {
       if (info(p.id).term != term) continue;
       free.push_back(p);
