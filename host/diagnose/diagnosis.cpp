@@ -45,7 +45,11 @@ double structure_left(const Location& location) {
   for (const AxisMap& map : location.axes) {
     if (!map.flat()) most = std::max(most, map.gain);
   }
-  if (location.line.gain > 10) most = std::max(most, location.line.gain);
+  const Profile& over_frequency = location.over_frequency;
+  if (!over_frequency.flat()) {
+    const double looks = static_cast<double>(over_frequency.at.size());
+    most = std::max(most, over_frequency.value[over_frequency.strongest()] - std::log(looks));
+  }
   return most;
 }
 
@@ -56,8 +60,8 @@ Where where_of(const Location& location) {
     if (map.flat() || !where.contains(map.axis)) continue;
     if (const auto stretch = map.stretch(); !stretch.empty()) where[map.axis] = stretch;
   }
-  if (location.line.gain > 10)
-    where["frequency_hz"] = {location.line.frequency_hz, location.line.frequency_hz};
+  const Profile& over_frequency = location.over_frequency;
+  if (!over_frequency.flat()) where["frequency_hz"].assign(2, over_frequency.at[over_frequency.strongest()]);
   return where;
 }
 
@@ -181,8 +185,7 @@ class Diagnostician {
     Unexplained left;
     left.share_left = share_left;
     left.where = where_of(result_.after);
-    left.line = result_.after.line;
-    const Profile& over_way = (refused ? result_.before : result_.after).profiles.front();
+    const Profile& over_way = (refused ? result_.before : result_.after).over_way;
     for (const std::size_t i : over_way.lines(kPeriodsTold)) left.periods_m.push_back(1 / over_way.at[i]);
     const auto carrier =
         std::max_element(result_.after.axes.begin(), result_.after.axes.end(),

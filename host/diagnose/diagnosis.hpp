@@ -57,9 +57,8 @@ struct Errors {
 struct Unexplained {
   double share_left = 0;  ///< of what was missing, after the best candidate
   Where where;
-  std::string axis;  ///< the axis that carries most of it
-  AxisMap curve;     ///< the missing push along that axis, with its band
-  SpectralLine line;
+  std::string axis;               ///< the axis that carries most of it
+  AxisMap curve;                  ///< the missing push along that axis, with its band
   std::vector<double> periods_m;  ///< of pushes that repeat over the way, strongest first
   std::optional<Term> closest;
   std::string why_refused;

@@ -85,11 +85,9 @@ Json location_json(const Location& location) {
   Json axes = Json::array();
   for (const AxisMap& map : location.axes) axes.push_back(map_json(map));
   Json profiles = Json::array();
-  for (const Profile& profile : location.profiles) profiles.push_back(profile_json(profile));
+  for (const Profile* profile : location.profiles()) profiles.push_back(profile_json(*profile));
   return {{"axes", axes},
           {"profiles", profiles},
-          {"line",
-           {{"frequency_hz", number(location.line.frequency_hz)}, {"gain_nats", number(location.line.gain)}}},
           {"repeats",
            {{"correlation", number(location.repeat_correlation)},
             {"standard_errors", number(location.repeat_z)}}}};

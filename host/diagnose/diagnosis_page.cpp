@@ -9,6 +9,7 @@
 #include "host/diagnose/statement.hpp"
 #include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/replay.hpp"
+#include "host/report/unit.hpp"
 
 namespace cartwright {
 namespace {

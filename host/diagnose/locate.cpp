@@ -71,13 +71,6 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   return map;
 }
 
-SpectralLine strongest_line(const Profile& spectrum) {
-  if (spectrum.value.empty()) return {};
-  const std::size_t top = spectrum.strongest();
-  const double looks = static_cast<double>(spectrum.value.size());
-  return {spectrum.at[top], std::max(0.0, spectrum.value[top] - std::log(looks))};
-}
-
 /// Pairs of repeats have the same physics left out and different noise.
 void compare_repeats(const Session& session, const Fit& fit, Location& location) {
   constexpr double kSmooth_s = 0.02;
@@ -173,19 +166,10 @@ Location locate(const Session& session, const Fit& fit, const FitOptions& option
     }
     map.share = power > 0 && !map.flat() ? std::min(1.0, explained / power) : 0;
   }
-  location.profiles = {spatial_frequency_profile(session, fit, options, threads),
-                       frequency_profile(session, fit), input_lag_profile(session, fit)};
-  location.line = strongest_line(location.profiles[1]);
+  location.over_way = spatial_frequency_profile(session, fit, options, threads);
+  location.over_frequency = frequency_profile(session, fit);
+  location.over_lag = input_lag_profile(session, fit);
   compare_repeats(session, fit, location);
-  const std::size_t skip = settling_rows(session.rig);
-  std::size_t first = 0;
-  for (const Recording& r : session.recordings) {
-    const std::size_t n = r.size() > skip ? r.size() - skip : 0;
-    double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += fit.error_m[first + k] * fit.error_m[first + k];
-    location.recording_rms_m.push_back(n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0);
-    first += n;
-  }
   return location;
 }
 

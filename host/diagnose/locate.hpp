@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -24,19 +25,13 @@ struct AxisMap {
   std::vector<double> stretch() const;
 };
 
-/// A line in the spectrum of the errors that stands above noise.
-struct SpectralLine {
-  double frequency_hz = 0;
-  double gain = 0;  ///< nats over white noise, less the log of the frequencies looked at
-};
-
 struct Location {
   std::vector<AxisMap> axes;
-  std::vector<Profile> profiles;  ///< over spatial frequency, time frequency and input lag
-  SpectralLine line;              ///< the strongest of the time frequencies
+  Profile over_way, over_frequency, over_lag;
   double repeat_correlation = 0;  ///< of smoothed errors between repeats; 0 without repeats
   double repeat_z = 0;            ///< that, in standard errors
-  std::vector<double> recording_rms_m;
+
+  std::array<const Profile*, 3> profiles() const { return {&over_way, &over_frequency, &over_lag}; }
 };
 
 Location locate(const Session& session, const Fit& fit, const FitOptions& options, unsigned threads);

@@ -4,30 +4,11 @@
 
 #include <algorithm>
 
+#include "host/report/unit.hpp"
+
 namespace cartwright {
 
 using namespace report;
-
-std::string unit_of(std::string_view key) {
-  // The unit is the last part of a name.
-  for (const auto& [ending, unit] :
-       {std::pair<std::string_view, std::string_view>{"_m_per_s2_V", "m/s² per V"},
-        {"_m_per_s2", "m/s²"},
-        {"_m_per_s", "m/s"},
-        {"_s_per_m", "s/m"},
-        {"_per_s2", "1/s²"},
-        {"_per_s", "1/s"},
-        {"_per_m", "1/m"},
-        {"_hz", "Hz"},
-        {"_rad", "rad"},
-        {"_counts", "counts"},
-        {"_V", "V"},
-        {"_s", "s"},
-        {"_m", "m"}}) {
-    if (key.ends_with(ending)) return std::string(unit);
-  }
-  return "";
-}
 
 Plot map_plot(const AxisMap& before, const AxisMap& after) {
   Plot plot;
@@ -102,12 +83,12 @@ void add_location(Report& page, const Diagnosis& d) {
     }
     plots.push_back(map_plot(map, d.after.axes[i]));
   }
-  for (std::size_t i = 0; i < d.before.profiles.size(); ++i) {
-    const Profile& profile = d.before.profiles[i];
-    if (profile.flat()) {
-      flat += fmt::format("{}{}", flat.empty() ? "" : ", ", profile.axis);
+  const auto before = d.before.profiles(), after = d.after.profiles();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i]->flat()) {
+      flat += fmt::format("{}{}", flat.empty() ? "" : ", ", before[i]->axis);
     } else {
-      plots.push_back(profile_plot(profile, d.after.profiles[i]));
+      plots.push_back(profile_plot(*before[i], *after[i]));
     }
   }
   if (!plots.empty()) page.plots(plots, 2);

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "host/diagnose/diagnosis.hpp"
 #include "host/report/report.hpp"
 
@@ -14,8 +11,5 @@ void add_location(report::Report& page, const Diagnosis& diagnosis);
 
 /// The missing push along one axis with its band, and what is left of it after; `after` may be empty.
 report::Plot map_plot(const AxisMap& before, const AxisMap& after);
-
-/// The unit that a name of the vocabulary, or of an axis, ends with; empty where it has none.
-std::string unit_of(std::string_view key);
 
 }  // namespace cartwright
