@@ -124,6 +124,7 @@ class Explainer {
     sketch.most_rounds = kRoundsOfSketch;
     sketch.most_iterations = kIterationsOfSketch;
     sketch.tolerance = kToleranceOfSketch;
+    sketch.covariance = false;
     sketch.finest_noise_step = kNoiseStepOfSketch;
     if (slow(base)) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
     std::vector<Explanation> tried(chosen.size());

@@ -11,7 +11,8 @@ struct Point {
   Model model;
   NoiseModel noise;
   std::vector<double> errors;
-  double value = 0;  // log-likelihood
+  double value = 0;         // log-likelihood
+  Eigen::MatrixXd columns;  // de/dp here; empty until asked for
 };
 
 constexpr double kMostLogStep = 1.0;  // of a logarithmic parameter in one iteration
@@ -43,7 +44,7 @@ class Fitter {
   }
 
   Fit run(const Model& start, const NoiseModel& noise) const {
-    Point at{start, bounded(noise), {}, 0};
+    Point at{start, bounded(noise), {}, 0, {}};
     evaluate(at);
     bool converged = false;
     for (int round = 0; round < options_.most_rounds && !converged; ++round) {
@@ -61,7 +62,7 @@ class Fitter {
     while (step > options_.finest_noise_step) {
       bool improved = false;
       for (const auto& direction : directions) {
-        Point there = at;
+        Point there{at.model, at.noise, {}, 0, {}};
         there.noise.disturbance_per_reading_per_s2 *= std::exp(step * direction[0]);
         there.noise.correlation_time_s *= std::exp(2 * step * direction[1]);
         there.noise = bounded(there.noise);
@@ -76,9 +77,11 @@ class Fitter {
   }
 
  private:
-  Eigen::MatrixXd jacobian(const Point& at) const {
+  const Eigen::MatrixXd& jacobian(Point& at) const {
     const auto rows = static_cast<Eigen::Index>(at.errors.size());
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(free_.size()));
+    if (at.columns.rows() == rows) return at.columns;
+    Eigen::MatrixXd& columns = at.columns;
+    columns = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(free_.size()));
     const Eigen::Map<const Eigen::VectorXd> base(at.errors.data(), rows);
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const FreeParameter& p = free_[i];
@@ -91,7 +94,7 @@ class Fitter {
       columns.col(static_cast<Eigen::Index>(i)) =
           (Eigen::Map<const Eigen::VectorXd>(e.data(), rows) - base) / step;
     }
-    return columns;
+    return at.columns;
   }
 
   void improve_physics(Point& at) const {
@@ -123,7 +126,7 @@ class Fitter {
         Eigen::MatrixXd damped = h;
         damped.diagonal() *= 1 + damping;
         const Eigen::VectorXd step = damped.ldlt().solve(-g);
-        Point there{at.model, at.noise, {}, 0};
+        Point there{at.model, at.noise, {}, 0, {}};
         for (Eigen::Index i = 0; i < n; ++i) {
           const FreeParameter& p = free_[static_cast<std::size_t>(i)];
           const double here = at.model[p.id];
@@ -168,7 +171,8 @@ class Fitter {
     result.rows = e.size();
     result.error_rms_m = std::exp(-at.value / static_cast<double>(e.size()));
     result.converged = converged;
-    Eigen::MatrixXd columns = jacobian(at);
+    const Eigen::MatrixXd columns =
+        options_.covariance ? jacobian(at) : Eigen::MatrixXd(static_cast<Eigen::Index>(e.size()), 0);
     Eigen::MatrixXd h, meat = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
     Eigen::VectorXd g;
     normal_equations(columns, e, h, g);
@@ -202,7 +206,7 @@ class Fitter {
           std::sqrt(std::max(1.0, variance * inverse(i, i) / std::max(result.covariance(i, i), 1e-300)));
     }
     result.covariance = widen.asDiagonal() * result.covariance * widen.asDiagonal();
-    result.jacobian = std::move(columns);
+    result.jacobian = columns;
     result.error_m = std::move(at.errors);
     return result;
   }
@@ -217,7 +221,8 @@ class Fitter {
 double Fit::standard_error(Parameter parameter) const {
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    if (free[i].id == parameter) return std::sqrt(std::max(covariance(at, at), 0.0));
+    if (free[i].id == parameter && at < covariance.rows())
+      return std::sqrt(std::max(covariance(at, at), 0.0));
   }
   return 0;
 }

@@ -22,6 +22,7 @@ struct FitOptions {
   int most_iterations = 8;          ///< Levenberg-Marquardt iterations in a round
   double tolerance = 0.1;           ///< stop when the log-likelihood gains less than this
   double finest_noise_step = 0.04;  ///< of the logarithms of the noise, where the pattern search ends
+  bool covariance = true;           ///< else `jacobian` and `covariance` stay empty: a pass a number saved
   bool move_noise = true;           ///< fit the observer's noise ratio and correlation time alongside
   double difference_step = 2e-3;    ///< of the finite differences, in units of a parameter's scale
   double step_s = 1e-3;             ///< greatest inner step of the plant

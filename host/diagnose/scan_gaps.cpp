@@ -99,6 +99,7 @@ std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Pr
   FitOptions quick = options;
   quick.most_rounds = 1;
   quick.move_noise = false;
+  quick.covariance = false;
   quick.most_iterations = kIterationsOfSize;
   const auto refined = [&](const Session& some, const std::vector<Model>& starts, const NoiseModel& noise) {
     std::vector<Fit> fits(starts.size());
