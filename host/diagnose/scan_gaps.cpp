@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,7 @@ constexpr double kMostDisturbance_per_s2 = 3e4;
 constexpr double kFinerDisturbance = 0.33;  // once the size is found
 constexpr int kIterationsOfSize = 12, kIterationsOfShare = 4;
 constexpr std::size_t kStartsKept = 2;
+constexpr std::array kShares{0.3, 0.4, 0.5, 0.6, 0.7};
 
 /// Reversals of the velocity over 10 ms, per second.
 double reversals_per_s(const Recording& r, const Rig& rig) {
@@ -125,11 +127,13 @@ std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Pr
     }
   });
   const Fit best = refined(little, starts, noise).front();
+  const double most_share = kShares.back();
+  if (with_share(best.model, most_share)[P::backlash_gap] < session.rig.encoder_resolution_m) return {};
 
   // How the mass is parted: the rest stays nearly the same along the way.
   const Session more = some_of(session, kMostData_s);
   starts.clear();
-  for (const double share : {0.3, 0.4, 0.5, 0.6, 0.7}) starts.push_back(with_share(best.model, share));
+  for (const double share : kShares) starts.push_back(with_share(best.model, share));
   quick.most_iterations = kIterationsOfShare;
   noise.disturbance_per_reading_per_s2 *= kFinerDisturbance;
   std::vector<Promise> found;
