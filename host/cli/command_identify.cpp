@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 #include "host/cli/command.hpp"
 #include "host/cli/gap_note.hpp"
@@ -23,6 +24,10 @@ struct Options {
   double window_s = WeakFormOptions{}.window_s;
   bool plain = false;
   ForceScale force_scale;
+  // The form that simulates.
+  std::string model;
+  std::vector<std::string> hold;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   // The forms of one step response.
   std::string recording, input = "error";
   double duration_s = StepOptions{}.duration_s;
@@ -67,6 +72,9 @@ Result<void> check_belongs(const CLI::App& command, const std::string& form) {
       {"--plain", "recorded"},
       {"--drive", "recorded"},
       {"--mass", "recorded"},
+      {"--model", "simulation"},
+      {"--hold", "simulation"},
+      {"--threads", "simulation"},
       {"--input", "piecewise"},
       {"--intervals", "piecewise"},
       {"--monotone", "piecewise"},
@@ -112,6 +120,28 @@ Outcome run_recorded(const Options& options, const Session& session) {
   return finish(options, found);
 }
 
+Outcome run_simulation(const Options& options, const Session& session) {
+  if (options.model.empty())
+    return failure("--form simulation refits a model: --model FILE, with numbers to start from, is missing");
+  const auto model = read_model(options.model);
+  if (!model) return tl::unexpected(model.error());
+  SimulationFitOptions settings;
+  settings.threads = options.threads;
+  for (const std::string& name : options.hold) {
+    const auto id = find_parameter(name);
+    if (!id || (info(*id).term && !model->has(*info(*id).term)))
+      return failure(fmt::format("--hold {}: {} holds no such number; names are as in identify's answer",
+                                 name, options.model));
+    settings.held.push_back(*id);
+  }
+  const auto found = [&] {
+    ProgressBar bar("simulating");
+    settings.progress = [&bar](double part) { bar.show(part); };
+    return fit_by_simulation(session, *model, settings);
+  }();
+  return finish(options, found);
+}
+
 Outcome run_step(const Options& options, const Session& session) {
   StepOptions settings;
   settings.file = options.recording;
@@ -132,7 +162,8 @@ Outcome run(const Options& options, const CLI::App& command) {
   const auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
   tell_gaps(*session);
-  return options.form == "recorded" ? run_recorded(options, *session) : run_step(options, *session);
+  if (options.form == "recorded") return run_recorded(options, *session);
+  return options.form == "simulation" ? run_simulation(options, *session) : run_step(options, *session);
 }
 
 }  // namespace
@@ -142,21 +173,24 @@ void add_identify(CLI::App& app, int& exit_status) {
   command->footer(
       "Forms:\n"
       "  recorded   the named terms, from the recorded voltage of all recordings at once\n"
+      "  simulation the numbers of a model, by simulating whole recordings from their voltage\n"
       "  error      gain and constant damping, from the control error of one step (Eq. 51-53)\n"
       "  piecewise  gain, damping over equal intervals of one step, and its law of speed (Eq. 13-29, 67-71)\n"
       "Examples:\n"
       "  cartwright identify --session rig/monday --out model.toml\n"
       "  cartwright identify --session rig/monday --terms viscous_friction,cogging --out model.toml\n"
       "  cartwright identify --session emps --drive 35.15065 --out emps-model.toml\n"
+      "  cartwright identify --session rig/monday --form simulation --model rig/monday-diagnosis/model.toml "
+      "--out model.toml\n"
       "  cartwright identify --session rig/monday --form piecewise --recording step_kp60_1.csv --out "
       "nl.toml\n"
       "  cartwright identify --session rig/monday --form piecewise --intervals 30 --slope 60 --out nl.toml");
   auto options = std::make_shared<Options>();
   command->add_option("--session", options->session, "directory with session.toml")->required();
   command->add_option("--out", options->out, "model file to write (TOML)")->required();
-  command->add_option("--form", options->form, "recorded, error or piecewise")
+  command->add_option("--form", options->form, "recorded, simulation, error or piecewise")
       ->capture_default_str()
-      ->check(CLI::IsMember({"recorded", "error", "piecewise"}));
+      ->check(CLI::IsMember({"recorded", "simulation", "error", "piecewise"}));
   command->add_flag("--json", options->json, "print one JSON object instead of the table");
   command->add_option("--terms", options->terms, "recorded: terms to fit, besides the voltage gain")
       ->capture_default_str();
@@ -177,6 +211,15 @@ void add_identify(CLI::App& app, int& exit_status) {
       ->check(kFinite)
       ->check(CLI::PositiveNumber)
       ->excludes(drive);
+  command->add_option("--model", options->model,
+                      "simulation: model file whose terms are kept and numbers refitted");
+  command
+      ->add_option("--hold", options->hold,
+                   "simulation: numbers to keep as given: voltage_gain_m_per_s2_V, ...")
+      ->delimiter(',');
+  command->add_option("--threads", options->threads, "simulation: threads to use")
+      ->check(CLI::Range(1u, 256u))
+      ->capture_default_str();
   command->add_option("--recording", options->recording,
                       "error, piecewise: file of the step; the first PD step where absent");
   command->add_option("--duration", options->duration_s, "error, piecewise: time used, from the step on [s]")

@@ -43,6 +43,17 @@ void print_estimates(const std::vector<ParameterEstimate>& estimates) {
   }
 }
 
+std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter parameter : parameters) names.push_back(dotted_name(parameter));
+  return names;
+}
+
+void print_not_separable(const std::vector<Parameter>& parameters) {
+  if (parameters.empty()) return;
+  fmt::print("this data fixes only a combination of: {}\n", fmt::join(names_of(parameters), ", "));
+}
+
 }  // namespace
 
 void print_json(const Identification& result) {
@@ -75,14 +86,21 @@ void print_json(const StepIdentification& result) {
   fmt::print("{}\n", document.dump(2));
 }
 
+void print_json(const SimulationFit& result) {
+  ordered_json document = document_of(result.estimates, result.not_separable);
+  document["held"] = names_of(result.held);
+  document["rows"] = result.rows;
+  document["open_loop_rmse_m"] = {{"before", number_json(result.before_m)},
+                                  {"after", number_json(result.after_m)}};
+  document["open_loop_rmse_m"]["held_out"] =
+      result.held_out_m ? number_json(*result.held_out_m) : ordered_json();
+  fmt::print("{}\n", document.dump(2));
+}
+
 void print_table(const Identification& result) {
   print_estimates(result.estimates);
   print_forces(result.forces);
-  if (!result.not_separable.empty()) {
-    std::vector<std::string> names;
-    for (const Parameter parameter : result.not_separable) names.push_back(dotted_name(parameter));
-    fmt::print("this data fixes only a combination of: {}\n", fmt::join(names, ", "));
-  }
+  print_not_separable(result.not_separable);
   fmt::print("{} windows, acceleration {:.4g} m/s^2 rms, of which {:.4g} is left\n", result.windows,
              result.acceleration_m_per_s2, result.residual_m_per_s2);
 }
@@ -99,6 +117,16 @@ void print_table(const StepIdentification& result) {
   }
   fmt::print("{}: {:.4g} mm rms is left; KKT residual {:.2g}\n", result.file, 1e3 * result.residual_m,
              result.kkt.greatest());
+}
+
+void print_table(const SimulationFit& result) {
+  print_estimates(result.estimates);
+  print_not_separable(result.not_separable);
+  if (!result.held.empty()) fmt::print("kept as given: {}\n", fmt::join(names_of(result.held), ", "));
+  fmt::print("whole recordings, simulated from their voltage: {:.4g} mm rms off before, {:.4g} mm now\n",
+             1e3 * result.before_m, 1e3 * result.after_m);
+  if (result.held_out_m)
+    fmt::print("second halves, by a fit to first halves: {:.4g} mm\n", 1e3 * *result.held_out_m);
 }
 
 }  // namespace cartwright::cli

@@ -29,7 +29,7 @@ class Replay {
       : recording_(recording), options_(options), encoder_(model, 0) {
     plant_options_.step_s = options.step_s;
     plant_options_.disturbance_active = model.disturbance_recording == recording.file;
-    plant_options_.heating_start_s = recording.t_s.front();
+    plant_options_.heating_start_s = options.started_s.value_or(recording.t_s.front());
   }
 
   Plant cold_plant(const Model& model, std::size_t row) const {

@@ -117,6 +117,37 @@ TEST_F(IdentifyCommand, PiecewiseGivesGainIntervalsAndLaw) {
   EXPECT_LT(json::parse(evaluated.out)["recordings"][0]["closed_loop_rmse_m"].get<double>(), 1e-3);
 }
 
+TEST_F(IdentifyCommand, SimulationRefitsAModelFile) {
+  ASSERT_EQ(identify({"--form", "piecewise"}).status, 0);
+  const std::string start = session() + "_start.toml";
+  std::filesystem::copy_file(out(), start, std::filesystem::copy_options::overwrite_existing);
+  const json found = identify_json(
+      {"--form", "simulation", "--model", start, "--hold", "exponential_damping.alpha2_s_per_m"});
+  EXPECT_NEAR(value(found, "voltage_gain_m_per_s2_V"), kGain, 0.02 * kGain);
+  EXPECT_EQ(found["held"], json::array({"exponential_damping.alpha2_s_per_m"}));
+  const json& error = found["open_loop_rmse_m"];
+  EXPECT_LT(error["after"].get<double>(), error["before"].get<double>());
+  EXPECT_TRUE(error["held_out"].is_number());
+  // The error it tells is the one that evaluate calls open loop.
+  const Finished evaluated = cartwright(
+      {"evaluate", "--model", out(), "--session", session(), "--out", session() + "_refitted", "--json"});
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  EXPECT_NEAR(json::parse(evaluated.out)["open_loop_rmse_m"].get<double>(), error["after"].get<double>(),
+              1e-9);
+}
+
+TEST_F(IdentifyCommand, SimulationRefusesWhatItCannotUse) {
+  const std::string nominal = session() + "_nominal.toml";
+  ASSERT_EQ(identify({}).status, 0);
+  std::filesystem::copy_file(out(), nominal, std::filesystem::copy_options::overwrite_existing);
+  expect_refused({"--form", "simulation"}, "--model FILE");
+  expect_refused({"--form", "simulation", "--model", nominal, "--terms", "cogging"}, "--terms belongs to");
+  expect_refused({"--form", "simulation", "--model", nominal, "--hold", "cogging.period_m"},
+                 "holds no such number");
+  expect_refused({"--form", "simulation", "--model", "no.toml"}, "no.toml");
+  expect_refused({"--model", nominal}, "--model belongs to --form simulation");
+}
+
 TEST_F(IdentifyCommand, TheRecordedVoltageServesAClippedStepToo) {
   const json found =
       identify_json({"--form", "piecewise", "--recording", "clipped.csv", "--input", "voltage"});

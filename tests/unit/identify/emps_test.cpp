@@ -7,6 +7,7 @@
 
 #include "host/evaluate/evaluate.hpp"
 #include "host/identify/identify.hpp"
+#include "host/identify/simulation_fit.hpp"
 #include "host/session/import.hpp"
 
 namespace cartwright {
@@ -73,6 +74,18 @@ TEST_F(Emps, PredictsTheRecordItWasNotFittedTo) {
   EXPECT_LT(seen.window.rms_m(), 0.60e-3);
   EXPECT_GT(unseen.window.rms_m(), 0.05e-3);
   EXPECT_LT(unseen.window.rms_m(), 0.81e-3);
+}
+
+TEST_F(Emps, SimulationOfTheWholeRecordCarriesOverToTheTestRecord) {
+  const Model identified_model = identified().model;
+  const auto fit = fit_by_simulation(imported({"DATA_EMPS.mat"}), identified_model);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_LT(fit->after_m, 0.7 * fit->before_m);
+  const Session test = imported({"DATA_EMPS_PULSES.mat"});
+  const auto score_m = [&test](const Model& model) {
+    return open_loop_error(replay_open_loop(model, test.recordings[0]), test.recordings[0]).rms_m();
+  };
+  EXPECT_LT(score_m(fit->model), score_m(identified_model));
 }
 
 }  // namespace
