@@ -180,8 +180,7 @@ void add_identify(CLI::App& app, int& exit_status) {
       "  cartwright identify --session rig/monday --out model.toml\n"
       "  cartwright identify --session rig/monday --terms viscous_friction,cogging --out model.toml\n"
       "  cartwright identify --session emps --drive 35.15065 --out emps-model.toml\n"
-      "  cartwright identify --session rig/monday --form simulation --model rig/monday-diagnosis/model.toml "
-      "--out model.toml\n"
+      "  cartwright identify --session rig/monday --form simulation --model model.toml --out refitted.toml\n"
       "  cartwright identify --session rig/monday --form piecewise --recording step_kp60_1.csv --out "
       "nl.toml\n"
       "  cartwright identify --session rig/monday --form piecewise --intervals 30 --slope 60 --out nl.toml");
