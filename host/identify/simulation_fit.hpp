@@ -45,7 +45,7 @@ struct SimulationFit {
 /// out), and open where there are fewer than four. What the fit is worth elsewhere is told by `held_out_m`.
 ///
 /// Where a model lacks physics this error takes in whatever of it these recordings hold: that carries over to
-/// recordings along the same references, and mostly not to others (README). Errors over short times grow.
+/// recordings along the same references, and less to others (README). Errors over short times grow.
 ///
 /// Fails where no recording is long enough, the given model's simulation runs away, or nothing moves.
 Result<SimulationFit> fit_by_simulation(const Session& session, const Model& start,
