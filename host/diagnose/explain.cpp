@@ -201,11 +201,13 @@ class Explainer {
   }
 
   /// Contact comes and goes: the cost of a model with a gap has kinks, so slopes are taken over wider steps.
-  static FitOptions with_kinks(const Model& model, FitOptions options) {
+  /// They take so long that one of them must not keep the other threads waiting.
+  FitOptions with_kinks(const Model& model, FitOptions options) const {
     if (!model.has(Term::backlash)) return options;
     options.difference_step = kStepOverKinks;
     options.most_rounds = std::min(options.most_rounds, 2);
     options.tolerance = kToleranceOfSketch;
+    options.threads = options_.threads;
     return options;
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/parallel.hpp"
+
 namespace cartwright {
 namespace {
 
@@ -266,8 +268,11 @@ std::vector<double> counted_errors(const Session& session, const Model& model, c
   observer.step_s = options.step_s;
   const ObserverGains gains = observer_gains(noise, session.rig, options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig);
-  for (const Recording& recording : session.recordings) {
-    const Observation seen = observe(model, gains, session.rig, recording, observer);
+  std::vector<Observation> observations(session.recordings.size());
+  parallel_for(observations.size(), options.threads, [&](std::size_t n) {
+    observations[n] = observe(model, gains, session.rig, session.recordings[n], observer);
+  });
+  for (const Observation& seen : observations) {
     for (std::size_t k = skip; k < seen.error_m.size(); ++k) {
       if (seen.spread.empty()) {
         all.push_back(seen.error_m[k]);

@@ -27,6 +27,7 @@ struct FitOptions {
   double difference_step = 2e-3;    ///< of the finite differences, in units of a parameter's scale
   double step_s = 1e-3;             ///< greatest inner step of the plant
   double damping_per_s = 5;         ///< of the linear cart behind the observer's gain
+  unsigned threads = 1;             ///< of a pass, which then takes so many recordings at a time
 };
 
 /// A model fitted by the likelihood of its one-step prediction errors,

@@ -18,7 +18,8 @@ constexpr double kFastestReversals_per_s = 12;
 /// A fit that lacks a gap calls its impacts disturbance; with that much of it no gap would show.
 constexpr double kMostDisturbance_per_s2 = 3e4;
 constexpr double kFinerDisturbance = 0.33;  // once the size is found
-constexpr int kIterationsOfSize = 12, kIterationsOfShare = 4;
+constexpr int kIterationsOfSketch = 4, kIterationsOfSize = 8, kIterationsOfShare = 4;
+constexpr std::size_t kLinesKept = 2;  // once sketched
 constexpr std::size_t kStartsKept = 2;
 constexpr std::array kShares{0.3, 0.4, 0.5, 0.6, 0.7};
 
@@ -102,7 +103,6 @@ std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Pr
   quick.most_rounds = 1;
   quick.move_noise = false;
   quick.covariance = false;
-  quick.most_iterations = kIterationsOfSize;
   const auto refined = [&](const Session& some, const std::vector<Model>& starts, const NoiseModel& noise) {
     std::vector<Fit> fits(starts.size());
     parallel_for(starts.size(), threads,
@@ -126,6 +126,11 @@ std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Pr
       if (value > most) most = value, starts[i] = one;
     }
   });
+  quick.most_iterations = kIterationsOfSketch;
+  const std::vector<Fit> sketched = refined(little, starts, noise);
+  starts.clear();
+  for (std::size_t i = 0; i < std::min(kLinesKept, sketched.size()); ++i) starts.push_back(sketched[i].model);
+  quick.most_iterations = kIterationsOfSize;
   const Fit best = refined(little, starts, noise).front();
   const double most_share = kShares.back();
   if (with_share(best.model, most_share)[P::backlash_gap] < session.rig.encoder_resolution_m) return {};
