@@ -105,8 +105,6 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
   linear = !(two_masses || varies_in_time || has_level_shape || has_exponential || has_cogging ||
              has_current_limit || has_bristle || spring != 0 || drag != 0);
-  linear_two_masses = !(rigid_backlash || has_disturbance || has_level_shape || has_exponential ||
-                        has_cogging || has_current_limit || drag != 0 || viscous_difference != 0);
 
   const double rate = fastest_rate(m, *this);
   longest_step_s = rate > 0 ? std::max(kStepTimesRate / rate, kLeastStep_s) : kInfinity;

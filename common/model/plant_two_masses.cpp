@@ -23,8 +23,7 @@ struct Mode {
   double bristle_m = 0;  // its deflection at the start of the step
   double start_m = 0;    // and where the cart was then
   int contact = 0;
-  double coupled = 0;  // force of the coupling on the load at the start
-  Rates force{};       // and all forces there, without sliding friction and rigid contact
+  Rates force{};  // at the start, without sliding friction and rigid contact
 };
 
 /// The two masses of a model, with the pushes of one step.
@@ -136,33 +135,13 @@ class TwoMasses {
       m.motor_stuck = held > 0 && std::abs(f.motor) <= held;
       m.motor_sign = m.motor_stuck ? 0 : sign_of(f.motor);
     }
-    m.coupled = coupling(s, m.contact);
     m.force = f;
     return m;
-  }
-
-  /// The same from those at the start of a step, `by` further on, where every force is linear in the state;
-  /// `least_push` becomes the least that the teeth pushed so far (below zero they would have to pull).
-  Rates linear(const Rates& start, const Pair& by, double drive_change, const Mode& mode,
-               double& least_push) const {
-    double coupled = 0;
-    if (mode.contact != 0 || p_.gap == 0) {
-      coupled = p_.coupling_stiffness * (by.motor - by.cart) + p_.coupling_damping * (by.motor_v - by.cart_v);
-      least_push = std::min(least_push, mode.contact * (mode.coupled + coupled));
-    }
-    const double stiffness = mode.elastic ? p_.spring + p_.bristle_stiffness : p_.spring;
-    const double cart = coupled - load_rate_ * by.cart_v - stiffness * by.cart;
-    const double motor = drive_change - motor_rate_ * by.motor_v - coupled;
-    return {mode.cart_stuck ? 0 : start.cart + per_cart_ * cart,
-            mode.motor_stuck ? 0 : start.motor + per_motor_ * motor};
   }
 
  private:
   const PlantTerms& p_;
   double extra_push_;
-  double per_cart_ = 1 / p_.load_share, per_motor_ = 1 / (1 - p_.load_share);
-  double load_rate_ = p_.load_damping_share * p_.viscous;
-  double motor_rate_ = (1 - p_.load_damping_share) * p_.viscous;
 };
 
 enum class Event { none, cart_stops, motor_stops, cart_starts, motor_starts, breakaway, touch, part, corner };
@@ -201,37 +180,23 @@ void Plant::hold_two_masses(double duration_s) noexcept {
     const bool joined = masses.joined(mode);
     const Rates k1 = masses.under(mode.force, s0, mode);
     Drive d{};
-    const auto runge_kutta = [&](double h, const auto& rates) {
+    const auto step = [&](double h) {
+      d = drive(h);
       const auto moved = [&](const Pair& at, const Rates& a, double by) {
-        return Pair{by * at.cart_v, by * at.motor_v, by * a.cart, by * a.motor};
+        return Pair{s0.cart + by * at.cart_v, s0.motor + by * at.motor_v, s0.cart_v + by * a.cart,
+                    s0.motor_v + by * a.motor};
       };
-      const auto from_start = [&](const Pair& by) {
-        return Pair{s0.cart + by.cart, s0.motor + by.motor, s0.cart_v + by.cart_v, s0.motor_v + by.motor_v};
-      };
-      const Pair by2 = moved(s0, k1, 0.5 * h), s2 = from_start(by2);
-      const Rates k2 = rates(by2, s2, 0.5 * h, d.middle);
-      const Pair by3 = moved(s2, k2, 0.5 * h), s3 = from_start(by3);
-      const Rates k3 = rates(by3, s3, 0.5 * h, d.middle);
-      const Pair by4 = moved(s3, k3, h), s4 = from_start(by4);
-      const Rates k4 = rates(by4, s4, h, d.end);
+      const Pair s2 = moved(s0, k1, 0.5 * h);
+      const Rates k2 = masses.accelerations(s2, t + 0.5 * h, d.middle, mode);
+      const Pair s3 = moved(s2, k2, 0.5 * h);
+      const Rates k3 = masses.accelerations(s3, t + 0.5 * h, d.middle, mode);
+      const Pair s4 = moved(s3, k3, h);
+      const Rates k4 = masses.accelerations(s4, t + h, d.end, mode);
       const double w = h / 6;
       return Pair{s0.cart + w * (s0.cart_v + 2 * (s2.cart_v + s3.cart_v) + s4.cart_v),
                   s0.motor + w * (s0.motor_v + 2 * (s2.motor_v + s3.motor_v) + s4.motor_v),
                   s0.cart_v + w * (k1.cart + 2 * (k2.cart + k3.cart) + k4.cart),
                   s0.motor_v + w * (k1.motor + 2 * (k2.motor + k3.motor) + k4.motor)};
-    };
-    const auto step = [&](double h) {
-      d = drive(h);
-      if (p.linear_two_masses && (mode.contact == 0 || mode.contact * mode.coupled > 0)) {
-        double least_push = 0;
-        const Pair s1 = runge_kutta(h, [&](const Pair& by, const Pair&, double, double drive_now) {
-          return masses.linear(k1, by, drive_now - d.start, mode, least_push);
-        });
-        if (least_push >= 0) return s1;
-      }
-      return runge_kutta(h, [&](const Pair&, const Pair& s, double later, double drive_now) {
-        return masses.accelerations(s, t + later, drive_now, mode);
-      });
     };
     double h = left;
     Pair s1 = step(h);

@@ -168,47 +168,5 @@ TEST(FlexibleCoupling, WithAGapIsFreeInsideIt) {
   EXPECT_NEAR(0.5 * (plant.state().velocity_m_per_s + plant.state().motor_velocity_m_per_s), 0.05, 1e-12);
 }
 
-/// Forces that are linear between events take a shorter way through a step. A drag too small to matter takes
-/// the other one.
-void expect_same_motion_with_a_vanishing_drag(const Model& model) {
-  Model other = model;
-  other.set(P::drag_coefficient, 1e-12);
-  PlantOptions options;
-  options.stiff_step_factor = 3;  // coarse steps would show another method
-  Plant plant(model, options), slow(other, options);
-  plant.reset(0.0);
-  slow.reset(0.0);
-  for (int tick = 0; tick < 3000; ++tick) {
-    const double command_V = 5 * std::sin(0.01 * tick) + (tick % 400 < 200 ? 1.5 : -1.5);
-    plant.advance(command_V, 1e-3);
-    slow.advance(command_V, 1e-3);
-    ASSERT_NEAR(plant.state().position_m, slow.state().position_m, 1e-9) << tick;
-    ASSERT_NEAR(plant.state().motor_position_m, slow.state().motor_position_m, 1e-9) << tick;
-    ASSERT_EQ(plant.state().contact, slow.state().contact) << tick;
-  }
-}
-
-TEST(TwoMasses, LinearForcesTakeTheSameStepsAsOthers) {
-  Model teeth(1.8);
-  teeth.set(P::viscous_coefficient, 5);
-  teeth.set(P::coulomb_level, 0.4);
-  teeth.set(P::backlash_gap, 3e-4).set(P::backlash_load_share, 0.4);
-  teeth.set(P::backlash_contact_resonance, 300).set(P::backlash_contact_damping_ratio, 0.15);
-  expect_same_motion_with_a_vanishing_drag(teeth);
-  Model spring = teeth;
-  spring.set(P::spring_stiffness, 20).set(P::spring_neutral, 0.1);
-  expect_same_motion_with_a_vanishing_drag(spring);
-  Model lag = teeth;
-  lag.set(P::armature_time_constant, 2e-3);
-  expect_same_motion_with_a_vanishing_drag(lag);
-  Model bristle = teeth;
-  bristle.set(P::presliding_stiffness, 1e4);
-  expect_same_motion_with_a_vanishing_drag(bristle);
-  Model flexible = teeth;
-  flexible.remove(Term::backlash);
-  flexible.set(P::coupling_resonance, 20).set(P::coupling_damping_ratio, 0.05);
-  expect_same_motion_with_a_vanishing_drag(flexible.set(P::coupling_load_share, 0.6));
-}
-
 }  // namespace
 }  // namespace cartwright
