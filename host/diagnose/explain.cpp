@@ -143,14 +143,17 @@ class Explainer {
     return tried;
   }
 
-  /// What begins before its recording is a start state that does not fit, not a push.
+  /// What is at its height before the errors of its recording count is a start state that does not fit, not a
+  /// push.
   bool inside_its_recording(const Model& model) const {
     const auto r =
         std::find_if(session_.recordings.begin(), session_.recordings.end(),
                      [&](const Recording& one) { return one.file == model.disturbance_recording; });
+    if (r == session_.recordings.end() || r->size() <= settling_rows(session_.rig)) return false;
     const double start_s = model[Parameter::disturbance_start];
-    return r != session_.recordings.end() && start_s >= r->t_s.front() &&
-           start_s + model[Parameter::disturbance_duration] <= r->t_s.back();
+    const double duration_s = model[Parameter::disturbance_duration];
+    return start_s >= r->t_s.front() && start_s + duration_s <= r->t_s.back() &&
+           start_s + 0.5 * duration_s >= r->t_s[settling_rows(session_.rig)];
   }
 
   /// A law with more numbers may lead only because it bends towards what is still missing. The simplest that

@@ -13,7 +13,10 @@ namespace {
 
 constexpr double kSettling_s = 0.05;
 constexpr double kFinestReading_m = 1e-6;  // where the rig file gives no resolution
-constexpr double kEagerRatio_per_s2 = 1e5;
+/// While it starts, the observer takes disturbances of this size over a count for usual: a start state that
+/// is off dies away within the settling. More would make a push of every count of a coarse encoder.
+constexpr double kEagerDisturbance_m_per_s2 = 2.5;
+constexpr double kMostEagerRatio_per_s2 = 1e5;
 /// Corrected every tick, the plant needs no more than its own shape right: w h = 0.45.
 constexpr double kStiffStepFactor = 3;
 
@@ -45,8 +48,10 @@ double linear_damping(const Model& model) {
 }
 
 ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double damping_per_s) {
+  const double count_m = std::max(rig.encoder_resolution_m, kFinestReading_m);
+  const double ratio = std::min(kMostEagerRatio_per_s2, kEagerDisturbance_m_per_s2 / count_m);
   NoiseModel eager = noise;
-  eager.disturbance_per_reading_per_s2 = std::max(noise.disturbance_per_reading_per_s2, kEagerRatio_per_s2);
+  eager.disturbance_per_reading_per_s2 = std::max(noise.disturbance_per_reading_per_s2, ratio);
   return {observer_gain(eager, rig.period_s(), damping_per_s),
           observer_gain(noise, rig.period_s(), damping_per_s), noise, damping_per_s};
 }

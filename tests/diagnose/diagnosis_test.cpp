@@ -126,6 +126,17 @@ TEST_P(FindsNothingWhereThereIsNothing, OnEffectFreeSessions) {
   }
 }
 
+/// Half a count is much against what moves at the beginning of a recording.
+TEST_P(FindsNothingWhereThereIsNothing, OnCoarseEncodersAtLowRates) {
+  IndependentCart cart;
+  cart.seed = GetParam();
+  cart.sample_rate_hz = 500, cart.count_m = 1e-4;
+  cart.start_m = 0.45 * cart.count_m;
+  const Diagnosis d = diagnose(battery(cart), nominal(1.93, 4.9, cart.coulomb_m_per_s2 * 1.03));
+  EXPECT_EQ(name(d.verdict), "no_mismatch");
+  EXPECT_TRUE(d.effects.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, FindsNothingWhereThereIsNothing, testing::Range<std::uint64_t>(1, 7));
 
 TEST(Diagnosis, ValuesThatAreOffAreNoMissingPhysics) {

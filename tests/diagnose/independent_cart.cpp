@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kDuration_s = 4.0;
 constexpr double kEulerStep_s = 2e-5;
-constexpr double kCount_m = 2.275e-5;
-constexpr double kReadingNoise_m = 5e-6;
+constexpr double kReadingNoise_counts = 0.22;
 constexpr double kDisturbance_m_per_s2 = 0.02;
 constexpr double kDisturbanceTime_s = 0.005;
 
@@ -24,13 +23,13 @@ double multisine(double t_s, double least_hz, double most_hz, int tones, double 
 }
 
 Recording reference(const std::string& file, const std::string& experiment, ControllerSpec controller,
-                    std::mt19937_64& random) {
+                    double period_s, std::mt19937_64& random) {
   std::uniform_real_distribution<double> late(8e-6, 16e-6);
   Recording r;
   r.file = file, r.experiment = experiment, r.controller = controller;
   const double phase = file.back();  // tracks differ by their letter
-  for (int k = 0; k < static_cast<int>(kDuration_s * 1000); ++k) {
-    const double t = k * 1e-3 + late(random);
+  for (int k = 0; k * period_s < kDuration_s; ++k) {
+    const double t = k * period_s + late(random);
     r.t_s.push_back(t);
     double reference_m = 0, added_V = 0;
     if (experiment == "step") reference_m = std::fmod(t, 2.0) < 1.0 ? 0.1 : 0.0;
@@ -46,21 +45,21 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
   std::normal_distribution<double> normal;
   const auto* pd = std::get_if<PdGains>(&r.controller);
   const auto* relay = std::get_if<DualRelayGains>(&r.controller);
-  double y = 0, v = 0, disturbance = 0, filtered = 0, previous = 0, integral = 0;
+  double y = cart.start_m, v = 0, disturbance = 0, filtered = 0, previous = 0, integral = 0;
   std::vector<double> sent;
   for (std::size_t k = 0; k < r.size(); ++k) {
-    const double read = y + cart.encoder_error_m(y) + kReadingNoise_m * normal(random);
-    const double measured = kCount_m * std::round(read / kCount_m);
+    const double read = y + cart.encoder_error_m(y) + kReadingNoise_counts * cart.count_m * normal(random);
+    const double measured = cart.count_m * std::round(read / cart.count_m);
     const double e = r.r_m[k] - measured;
     double u = r.added_V(k);
     if (pd) {
       if (k == 0) previous = e;
-      filtered +=
-          (1 - std::exp(-2 * M_PI * pd->derivative_filter_hz * 1e-3)) * ((e - previous) / 1e-3 - filtered);
+      const double share = 1 - std::exp(-2 * M_PI * pd->derivative_filter_hz * rig.period_s());
+      filtered += share * ((e - previous) / rig.period_s() - filtered);
       previous = e;
       u += pd->kp_V_per_m * e + pd->kd_V_s_per_m * filtered;
     } else {
-      integral += e * 1e-3;
+      integral += e * rig.period_s();
       u += relay->h1_V * (e >= 0 ? 1 : -1) + relay->h2_V * (integral >= 0 ? 1 : -1);
     }
     u = std::min(std::max(u, -rig.voltage_limit_V), rig.voltage_limit_V);
@@ -72,7 +71,7 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
     const double held = cart.amplifier(k >= late ? sent[k - late] : 0.0);
     const int steps = static_cast<int>(std::round((r.t_s[k + 1] - r.t_s[k]) / kEulerStep_s));
     const double h = (r.t_s[k + 1] - r.t_s[k]) / steps;
-    const double fade = std::exp(-1e-3 / kDisturbanceTime_s);
+    const double fade = std::exp(-rig.period_s() / kDisturbanceTime_s);
     disturbance = fade * disturbance + kDisturbance_m_per_s2 * std::sqrt(1 - fade * fade) * normal(random);
     for (int i = 0; i < steps; ++i) {
       const double t = r.t_s[k] + i * h;
@@ -94,7 +93,8 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
 Session battery(const IndependentCart& cart) {
   std::mt19937_64 random(cart.seed);
   Session session;
-  session.rig.encoder_resolution_m = kCount_m;
+  session.rig.encoder_resolution_m = cart.count_m;
+  session.rig.sample_rate_hz = cart.sample_rate_hz;
   const PdGains step{60, 0, 50, false}, track{80, 2, 50, false}, hold{30, 1, 50, false};
   for (const auto& [file, experiment, controller] :
        {std::tuple<std::string, std::string, ControllerSpec>{"step_1.csv", "step", step},
@@ -105,7 +105,7 @@ Session battery(const IndependentCart& cart) {
         {"dither.csv", "dither", hold},
         {"step_3.csv", "step", step},
         {"track_b", "track", track}}) {
-    session.recordings.push_back(reference(file, experiment, controller, random));
+    session.recordings.push_back(reference(file, experiment, controller, session.rig.period_s(), random));
     Recording& r = session.recordings.back();
     if (experiment == "step" && file != "step_1.csv") r.repeat_of = "step_1.csv";
     run(cart, session.rig, r, random);

@@ -20,11 +20,13 @@ struct IndependentCart {
       [](double, double, double, double) { return 0.0; };
   std::function<double(double y_m)> encoder_error_m = [](double) { return 0.0; };
   int delay_ticks = 0;
+  double sample_rate_hz = 1000, count_m = 2.275e-5;
+  double start_m = 0;  ///< between two counts it is off for the diagnosis
   std::uint64_t seed = 1;
 };
 
 /// A short battery on that cart: three repeats of a step, two relays, two tracks and a dither, 4 s each, with
-/// a 22.75 um encoder, its noise, a small coloured disturbance and jittering ticks.
+/// an encoder that rounds, its noise, a small coloured disturbance and jittering ticks.
 Session battery(const IndependentCart& cart);
 
 }  // namespace cartwright::test
