@@ -7,8 +7,6 @@
 namespace cartwright::blind {
 namespace {
 
-constexpr double kPeriod_s = 1e-3;
-
 /// A sum of tones with random phases, of the given greatest amplitude, roughly.
 class Multisine {
  public:
@@ -46,23 +44,24 @@ double sweep_m(double t_s) {
 /// The PD and dual-relay laws as the contract states them, written once more.
 class Controller {
  public:
-  explicit Controller(const ControllerSpec& spec) : spec_(spec) {}
+  Controller(const ControllerSpec& spec, double period_s) : spec_(spec), period_s_(period_s) {}
   double operator()(double e) {
     if (const auto* pd = std::get_if<PdGains>(&spec_)) {
       if (first_) previous_ = e;
       first_ = false;
-      const double share = 1 - std::exp(-2 * M_PI * pd->derivative_filter_hz * kPeriod_s);
-      filtered_ += share * ((e - previous_) / kPeriod_s - filtered_);
+      const double share = 1 - std::exp(-2 * M_PI * pd->derivative_filter_hz * period_s_);
+      filtered_ += share * ((e - previous_) / period_s_ - filtered_);
       previous_ = e;
       return pd->kp_V_per_m * e + pd->kd_V_s_per_m * filtered_;
     }
     const auto& relay = std::get<DualRelayGains>(spec_);
-    integral_ += e * kPeriod_s;
+    integral_ += e * period_s_;
     return relay.h1_V * (e >= 0 ? 1 : -1) + relay.h2_V * (integral_ >= 0 ? 1 : -1);
   }
 
  private:
   const ControllerSpec& spec_;
+  double period_s_;
   bool first_ = true;
   double previous_ = 0, filtered_ = 0, integral_ = 0;
 };
@@ -70,15 +69,16 @@ class Controller {
 Recording run(const CartPhysics& physics, const Rig& rig, Recording r, int index, double duration_s,
               const std::function<double(double)>& reference, const std::function<double(double)>& added,
               std::mt19937_64& random) {
+  const double period_s = rig.period_s();
   std::exponential_distribution<double> late(1 / 6e-6);
   std::uniform_real_distribution<double> uniform;
-  const auto rows = static_cast<std::size_t>(std::lround(duration_s / kPeriod_s));
+  const auto rows = static_cast<std::size_t>(std::lround(duration_s / period_s));
   for (std::size_t k = 0; k <= rows; ++k) {
     const double more = uniform(random) < 0.003 ? 1.2e-4 * uniform(random) : 0;
-    r.t_s.push_back(static_cast<double>(k) * kPeriod_s + 4e-6 + std::min(late(random), 5e-5) + more);
+    r.t_s.push_back(static_cast<double>(k) * period_s + 4e-6 + std::min(late(random), 5e-5) + more);
   }
   Cart cart(physics, index, random());
-  Controller controller(r.controller);
+  Controller controller(r.controller, period_s);
   for (std::size_t k = 0; k < rows; ++k) {
     const double t = r.t_s[k], y = cart.read();
     r.r_m.push_back(reference(t));
@@ -94,12 +94,13 @@ Recording run(const CartPhysics& physics, const Rig& rig, Recording r, int index
 
 }  // namespace
 
-Session battery(const CartPhysics& physics, std::uint64_t seed) {
+Session battery(const CartPhysics& physics, std::uint64_t seed, double sample_rate_hz) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform;
   Session session;
   session.rig.name = "concealed";
   session.rig.encoder_resolution_m = physics.count_m;
+  session.rig.sample_rate_hz = sample_rate_hz;
   const auto add = [&](const char* file, const char* experiment, ControllerSpec controller, double duration_s,
                        const std::function<double(double)>& reference,
                        const std::function<double(double)>& added = {}) {
@@ -131,11 +132,12 @@ Session battery(const CartPhysics& physics, std::uint64_t seed) {
   return session;
 }
 
-Session unseen_track(const CartPhysics& physics, std::uint64_t seed) {
+Session unseen_track(const CartPhysics& physics, std::uint64_t seed, double sample_rate_hz) {
   std::mt19937_64 random(seed);
   Session session;
   session.rig.name = "concealed";
   session.rig.encoder_resolution_m = physics.count_m;
+  session.rig.sample_rate_hz = sample_rate_hz;
   Recording r;
   r.file = "track_c.csv", r.experiment = "track", r.controller = PdGains{70, 1.5, 50, false};
   const Multisine reference(0.2, 2.8, 7, 0.075, random);

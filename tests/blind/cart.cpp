@@ -6,7 +6,7 @@
 namespace cartwright::blind {
 namespace {
 
-constexpr double kStep_s = 2e-5;
+constexpr double kStep_s = 4e-6;  // explicit: gain and damping come out c h/2 = 1e-5 too large
 constexpr double kStepTwoMasses_s = 5e-6;
 /// Teeth that meet across a gap: a stiff spring with a damper, per unit of moving mass.
 constexpr double kToothStiffness_per_s2 = 4e6;

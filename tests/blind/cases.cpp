@@ -14,17 +14,17 @@ std::vector<Case> one_each(const std::vector<std::string>& effects, const Draws&
     std::uint64_t cart = 100 * seed;
     for (const int size : draws.sizes) {
       for (const std::string& effect : effects)
-        cases.push_back({{effect}, static_cast<Size>(size), cart++, draws.recordings});
+        cases.push_back({{effect}, static_cast<Size>(size), cart++, draws.recordings, draws.instruments});
     }
   }
   return cases;
 }
 
-Case pair(std::uint64_t seed, std::size_t recordings) {
+Case pair(std::uint64_t seed, const Draws& draws) {
   std::mt19937_64 random(seed);
   const auto& list = effects_of_the_vocabulary();
   const std::size_t a = random() % list.size(), b = (a + 1 + random() % (list.size() - 1)) % list.size();
-  return {{list[a], list[b]}, Size::medium, seed, recordings};
+  return {{list[a], list[b]}, Size::medium, seed, draws.recordings, draws.instruments};
 }
 
 }  // namespace
@@ -49,9 +49,10 @@ std::vector<Case> cases_of(const std::string& set, const Draws& draws) {
   if (set == "effects") return one_each(effects_of_the_vocabulary(), draws);
   if (set == "outside") return one_each(effects_outside(), draws);
   for (std::uint64_t seed = draws.first; seed < draws.first + draws.seeds; ++seed) {
-    if (set == "clean") cases.push_back({{}, Size::medium, seed, draws.recordings});
-    if (set == "change") cases.push_back({{"parameter_change"}, Size::medium, seed, draws.recordings});
-    if (set == "pairs") cases.push_back(pair(seed, draws.recordings));
+    if (set == "clean") cases.push_back({{}, Size::medium, seed, draws.recordings, draws.instruments});
+    if (set == "change")
+      cases.push_back({{"parameter_change"}, Size::medium, seed, draws.recordings, draws.instruments});
+    if (set == "pairs") cases.push_back(pair(seed, draws));
   }
   return cases;
 }

@@ -14,6 +14,7 @@ struct Case {
   Size size = Size::medium;
   std::uint64_t seed = 1;
   std::size_t recordings = 10;  ///< how many of the battery's ten are there to be judged
+  Instruments instruments = {};
 
   bool operator==(const Case&) const = default;
 };
@@ -26,6 +27,7 @@ struct Draws {
   std::vector<int> sizes{2};
   std::uint64_t first = 1, seeds = 1;
   std::size_t recordings = 10;
+  Instruments instruments = {};
 };
 
 /// Names of the sets: effects, pairs, outside, clean, change; and all of them, in that order.

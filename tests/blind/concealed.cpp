@@ -199,10 +199,12 @@ const std::vector<std::string>& effects_outside() {
   return names;
 }
 
-Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed) {
+Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed,
+               const Instruments& instruments) {
   Draw d(seed, size);
   Concealed c;
   CartPhysics& p = c.physics;
+  p.count_m = instruments.count_m;
   p.gain_m_per_s2_V = d.between(1.5, 2.2);
   p.viscous_per_s = d.between(4, 7);
   const bool dry = d.between(0, 1) < 0.85;

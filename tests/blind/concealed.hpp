@@ -13,6 +13,12 @@ namespace cartwright::blind {
 enum class Size { third, small, medium, large };
 std::string_view name(Size size);
 
+/// What the cart is measured with.
+struct Instruments {
+  double sample_rate_hz = 1000, count_m = 2.275e-5;
+  bool operator==(const Instruments&) const = default;
+};
+
 /// A cart drawn at random, what it hides, and what its owner believes.
 struct Concealed {
   CartPhysics physics;
@@ -29,6 +35,7 @@ const std::vector<std::string>& effects_of_the_vocabulary();
 const std::vector<std::string>& effects_outside();
 
 /// A cart hiding `effects`, each of `size`; `parameter_change` and none at all are possible too.
-Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed);
+Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed,
+               const Instruments& instruments);
 
 }  // namespace cartwright::blind

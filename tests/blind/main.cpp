@@ -67,7 +67,7 @@ int write(const std::vector<Case>& cases, const std::filesystem::path& directory
       fmt::print(stderr, "blind_proof: {}\n", written.error().message);
       return 2;
     }
-    for (const auto& [key, value] : draw(c.effects, c.size, c.seed).truth)
+    for (const auto& [key, value] : draw(c.effects, c.size, c.seed, c.instruments).truth)
       fmt::print("{}: {} = {}\n", where.string(), key, value);
   }
   return 0;
@@ -153,6 +153,12 @@ int main(int argc, char** argv) {
   app.add_option("--first", options.draws.first, "the first seed")->capture_default_str();
   app.add_option("--recordings", options.draws.recordings, "only the first so many of each battery")
       ->check(CLI::Range(1, 10))
+      ->capture_default_str();
+  app.add_option("--rate", options.draws.instruments.sample_rate_hz, "sample rate [Hz]")
+      ->check(CLI::Range(100, 10000))
+      ->capture_default_str();
+  app.add_option("--count", options.draws.instruments.count_m, "resolution of the encoder [m]")
+      ->check(CLI::Range(1e-6, 1e-3))
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "sessions at a time, one thread each")->capture_default_str();
   app.add_option("--only", options.only, "only these effects");

@@ -24,7 +24,7 @@ Model believed(const Concealed& c) {
 
 /// The first recordings of the battery.
 Session recorded(const Concealed& c, const Case& asked) {
-  Session session = battery(c.physics, asked.seed);
+  Session session = battery(c.physics, asked.seed, asked.instruments.sample_rate_hz);
   session.recordings.resize(std::min(asked.recordings, session.recordings.size()));
   return session;
 }
@@ -38,8 +38,9 @@ double processor_time_s() {
 
 /// Of the excess error that the refitted nominal model has on a recording nobody saw, how much the diagnosed
 /// model removes. The floor is what the exactly right model leaves on a cart that hides nothing, same noise.
-double unseen_excess_removed(const Concealed& c, const Diagnosis& d, std::uint64_t seed) {
-  const Session unseen = unseen_track(c.physics, seed);
+double unseen_excess_removed(const Concealed& c, const Diagnosis& d, const Case& asked) {
+  const std::uint64_t seed = asked.seed + 1000003;  // noise of its own
+  const Session unseen = unseen_track(c.physics, seed, asked.instruments.sample_rate_hz);
   const CartPhysics& p = c.physics;
   CartPhysics plain;
   plain.gain_m_per_s2_V = p.gain_m_per_s2_V;
@@ -47,11 +48,13 @@ double unseen_excess_removed(const Concealed& c, const Diagnosis& d, std::uint64
   plain.coulomb_m_per_s2 = p.coulomb_m_per_s2;
   plain.disturbance_m_per_s2 = p.disturbance_m_per_s2;
   plain.disturbance_time_s = p.disturbance_time_s;
+  plain.count_m = p.count_m;
   plain.reading_noise_m = p.reading_noise_m;
   Model exact(plain.gain_m_per_s2_V);
   exact.set(P::viscous_coefficient, plain.viscous_per_s).set(P::coulomb_level, plain.coulomb_m_per_s2);
   const auto square = [](double x) { return x * x; };
-  const double floor = square(window_rmse_m(exact, unseen_track(plain, seed), 1));
+  const double floor =
+      square(window_rmse_m(exact, unseen_track(plain, seed, asked.instruments.sample_rate_hz), 1));
   const double before = square(window_rmse_m(d.refitted, unseen, 1)) - floor;
   const double after = square(window_rmse_m(d.model, unseen, 1)) - floor;
   return before > 0 ? 1 - after / before : 1;
@@ -86,7 +89,7 @@ double Outcome::excess_over_floor() const {
 }
 
 Outcome ask(const Case& asked, Ask whom) {
-  const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
+  const Concealed hidden = draw(asked.effects, asked.size, asked.seed, asked.instruments);
   const Session session = recorded(hidden, asked);
   const Model nominal = believed(hidden);
   Outcome out;
@@ -116,9 +119,8 @@ Outcome ask(const Case& asked, Ask whom) {
   out.gain_covered =
       gain.low <= hidden.physics.gain_m_per_s2_V && hidden.physics.gain_m_per_s2_V <= gain.high;
   const bool of_one_moment = hidden.physics.push_recording >= 0 || hidden.physics.lost_rate_per_s > 0;
-  out.unseen_excess_removed = of_one_moment || d.effects.empty()
-                                  ? std::nan("")
-                                  : unseen_excess_removed(hidden, d, asked.seed + 1000003);
+  out.unseen_excess_removed =
+      of_one_moment || d.effects.empty() ? std::nan("") : unseen_excess_removed(hidden, d, asked);
   if (whom == Ask::diagnosis_and_baselines) {
     const double before_s = processor_time_s();
     out.baselines = ask_baselines(session, nominal, d);
@@ -128,7 +130,7 @@ Outcome ask(const Case& asked, Ask whom) {
 }
 
 Question question_of(const Case& asked) {
-  const Concealed hidden = draw(asked.effects, asked.size, asked.seed);
+  const Concealed hidden = draw(asked.effects, asked.size, asked.seed, asked.instruments);
   return {recorded(hidden, asked), believed(hidden)};
 }
 

@@ -59,6 +59,8 @@ std::string to_line(const Outcome& o) {
                   {"size", static_cast<int>(o.asked.size)},
                   {"seed", o.asked.seed},
                   {"recordings", o.asked.recordings},
+                  {"sample_rate_hz", o.asked.instruments.sample_rate_hz},
+                  {"count_m", o.asked.instruments.count_m},
                   {"expected", o.expected},
                   {"verdict", cartwright::name(o.verdict)},
                   {"named", named},
@@ -78,8 +80,12 @@ Result<Outcome> from_line(const std::string& text) {
   try {
     const json line = json::parse(text);
     Outcome o;
-    o.asked = {line.at("effects"), static_cast<Size>(line.at("size").get<int>()), line.at("seed"),
-               line.value("recordings", std::size_t{10})};
+    o.asked = {line.at("effects"),
+               static_cast<Size>(line.at("size").get<int>()),
+               line.at("seed"),
+               line.value("recordings", std::size_t{10}),
+               {line.value("sample_rate_hz", Instruments{}.sample_rate_hz),
+                line.value("count_m", Instruments{}.count_m)}};
     o.expected = line.at("expected").get<std::vector<std::string>>();
     o.verdict = verdict_from(line.at("verdict"));
     for (const json& n : line.at("named"))
