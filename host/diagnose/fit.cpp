@@ -266,7 +266,7 @@ std::vector<double> counted_errors(const Session& session, const Model& model, c
   all.reserve(rows);
   ObserverOptions observer;
   observer.step_s = options.step_s;
-  const ObserverGains gains = observer_gains(noise, session.rig, options.damping_per_s);
+  const ObserverGains gains = observer_gains(noise, session.rig.period_s(), options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig);
   std::vector<Observation> observations(session.recordings.size());
   parallel_for(observations.size(), options.threads, [&](std::size_t n) {

@@ -18,13 +18,14 @@ namespace cartwright {
 template <typename Value>
 class Influences {
  public:
+  /// The gains must outlive it.
   Influences(const ObserverGains& gains, double period_s, double damping_per_s)
-      : gains_(gains), period_s_(period_s), damping_per_s_(damping_per_s) {}
+      : gains_(&gains), period_s_(period_s), damping_per_s_(damping_per_s) {}
 
   /// Takes row k: the acceleration that acts from row k - 1 to k, the part of reading k; returns e(k).
-  Value step(bool starting, const Value& acceleration_m_per_s2, const Value& reading_m) noexcept {
+  Value step(std::size_t row, const Value& acceleration_m_per_s2, const Value& reading_m) noexcept {
     const double t = period_s_;
-    const ObserverGain& g = starting ? gains_.starting : gains_.settled;
+    const ObserverGain& g = gains_->at(row);
     const Value mean_acceleration = acceleration_m_per_s2 + d_ - damping_per_s_ * v_;
     y_ += t * v_ + 0.5 * t * t * mean_acceleration;
     v_ += t * mean_acceleration;
@@ -38,7 +39,7 @@ class Influences {
   void reset() { y_ = v_ = d_ = nothing(); }
 
  private:
-  ObserverGains gains_;
+  const ObserverGains* gains_;
   double period_s_, damping_per_s_;
   static Value nothing() {
     if constexpr (std::is_arithmetic_v<Value>) {

@@ -35,7 +35,7 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
       Influence influence(gains, session.rig.period_s(), damping);
       for (std::size_t k = 1; k < session.recordings[n].size(); ++k) {
         const double push = axis.bin[n][k] == b ? axis.direction[n][k] : 0.0;
-        const double e = influence.step(k < skip / 2, push, 0);
+        const double e = influence.step(k, push, 0);
         if (k >= skip) columns(row++, b) = e;
       }
     }
@@ -132,7 +132,7 @@ std::vector<double> AxisMap::stretch() const {
 
 Location locate(const Session& session, const Fit& fit, const FitOptions& options, unsigned threads) {
   Location location;
-  const ObserverGains gains = observer_gains(fit.noise, session.rig, options.damping_per_s);
+  const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
   ObserverOptions keep;
   keep.keep_states = true;
   std::vector<Observation> seen(session.recordings.size());

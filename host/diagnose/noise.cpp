@@ -5,7 +5,16 @@
 
 namespace cartwright {
 
-ObserverGain observer_gain(const NoiseModel& noise, double period_s, double damping_per_s) {
+namespace {
+
+/// The speed of a start is off by about this much, in reading errors a second: some centimetres a second.
+constexpr double kStartSpeed_per_s = 1e4;
+/// After that long gains of the start are those of rest, near enough.
+constexpr double kStart_s = 0.25;
+
+}  // namespace
+
+ObserverGains observer_gains(const NoiseModel& noise, double period_s, double damping_per_s) {
   const double t = period_s;
   const double decay = std::exp(-t / noise.correlation_time_s);
   Eigen::Matrix3d f;
@@ -14,7 +23,9 @@ ObserverGain observer_gain(const NoiseModel& noise, double period_s, double damp
       0, 0, decay;
   const double ratio = noise.disturbance_per_reading_per_s2;
   const double q = ratio * ratio * (1 - decay * decay);
-  Eigen::Matrix3d p = Eigen::Vector3d(1, 1, ratio * ratio).asDiagonal();
+  Eigen::Matrix3d p = Eigen::Vector3d(1, kStartSpeed_per_s * kStartSpeed_per_s, ratio * ratio).asDiagonal();
+  ObserverGains gains{{}, {}, noise, damping_per_s};
+  const auto most_starting = static_cast<std::size_t>(kStart_s / t);
   Eigen::Vector3d gain = Eigen::Vector3d::Zero();
   double s = 1;
   constexpr int kMostIterations = 20000;
@@ -27,9 +38,11 @@ ObserverGain observer_gain(const NoiseModel& noise, double period_s, double damp
     p = 0.5 * (p + p.transpose().eval());
     const bool at_rest = (next - gain).norm() < 1e-9 * next.norm();
     gain = next;
+    gains.settled = {gain[0], gain[1], gain[2], decay, s};
     if (at_rest) break;
+    if (gains.starting.size() < most_starting) gains.starting.push_back(gains.settled);
   }
-  return {gain[0], gain[1], gain[2], decay, s};
+  return gains;
 }
 
 }  // namespace cartwright

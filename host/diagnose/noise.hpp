@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <vector>
 
 namespace cartwright {
 
@@ -15,8 +15,7 @@ struct NoiseModel {
   static constexpr double kShortestCorrelation_s = 0.0002;
 };
 
-/// Steady-state Kalman gains of the linear cart  y' = v, v' = -c v + d, d' = -d/tau + white  read at a fixed
-/// period.
+/// Kalman gains of the linear cart  y' = v, v' = -c v + d, d' = -d/tau + white  read at a fixed period.
 struct ObserverGain {
   double position = 0;              ///< [-]
   double velocity_per_s = 0;        ///< [1/s]
@@ -25,7 +24,22 @@ struct ObserverGain {
   double error_variance_ratio = 1;  ///< variance of the one-step error over that of the reading error
 };
 
+/// The gains from a start whose position is as sure as a reading and whose speed is hardly known, reading by
+/// reading, to where they rest.
+struct ObserverGains {
+  std::vector<ObserverGain> starting;  ///< of rows 1, 2, ... after the start
+  ObserverGain settled;
+  NoiseModel noise;  ///< what they come from
+  double damping_per_s = 0;
+
+  static constexpr std::size_t kSettledRow = static_cast<std::size_t>(-1);
+  /// The gain of a row, counted from the start, which is row 0.
+  const ObserverGain& at(std::size_t row) const {
+    return row - 1 < starting.size() ? starting[row - 1] : settled;
+  }
+};
+
 /// Iterates the Riccati equation of the three-state model to rest.
-ObserverGain observer_gain(const NoiseModel& noise, double period_s, double damping_per_s);
+ObserverGains observer_gains(const NoiseModel& noise, double period_s, double damping_per_s);
 
 }  // namespace cartwright

@@ -1,5 +1,6 @@
 #include "host/diagnose/observer.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,25 +13,27 @@ namespace cartwright {
 namespace {
 
 constexpr double kSettling_s = 0.05;
+constexpr std::size_t kLeastRowsOfParabola = 4;
 constexpr double kFinestReading_m = 1e-6;  // where the rig file gives no resolution
-/// While it starts, the observer takes disturbances of this size over a count for usual: a start state that
-/// is off dies away within the settling. More would make a push of every count of a coarse encoder.
-constexpr double kEagerDisturbance_m_per_s2 = 2.5;
-constexpr double kMostEagerRatio_per_s2 = 1e5;
 /// Corrected every tick, the plant needs no more than its own shape right: w h = 0.45.
 constexpr double kStiffStepFactor = 3;
 
-/// Slope of the first readings, for recordings that begin in motion.
+/// Speed of a recording that begins in motion: the parabola through its first readings, so that a cart pushed
+/// from rest is seen to start from rest.
 double first_velocity(const Rig& rig, const Recording& recording) {
-  const std::size_t rows = std::min(recording.size(), settling_rows(rig) / 2 + 2);
-  double st = 0, sy = 0, stt = 0, sty = 0;
-  for (std::size_t k = 0; k < rows; ++k) {
-    const double t = recording.t_s[k] - recording.t_s[0], y = recording.y_m[k] - recording.y_m[0];
-    st += t, sy += y, stt += t * t, sty += t * y;
+  const auto rows =
+      static_cast<Eigen::Index>(std::min(recording.size(), settling_rows(rig) / 2 + kLeastRowsOfParabola));
+  if (rows < static_cast<Eigen::Index>(kLeastRowsOfParabola)) return 0;
+  Eigen::MatrixX3d powers(rows, 3);
+  Eigen::VectorXd moved(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double t = recording.t_s[at] - recording.t_s[0];
+    powers.row(k) << 1, t, t * t;
+    moved[k] = recording.y_m[at] - recording.y_m[0];
   }
-  const double n = static_cast<double>(rows);
-  const double slope = (n * sty - st * sy) / (n * stt - st * st);
-  const double span = recording.t_s[rows - 1] - recording.t_s[0];
+  const double slope = powers.colPivHouseholderQr().solve(moved)[1];
+  const double span = powers(rows - 1, 1);
   return std::abs(slope * span) > 3 * rig.encoder_resolution_m ? slope : 0.0;
 }
 
@@ -47,15 +50,6 @@ double linear_damping(const Model& model) {
   return std::clamp(c, 0.0, 100.0);
 }
 
-ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double damping_per_s) {
-  const double count_m = std::max(rig.encoder_resolution_m, kFinestReading_m);
-  const double ratio = std::min(kMostEagerRatio_per_s2, kEagerDisturbance_m_per_s2 / count_m);
-  NoiseModel eager = noise;
-  eager.disturbance_per_reading_per_s2 = std::max(noise.disturbance_per_reading_per_s2, ratio);
-  return {observer_gain(eager, rig.period_s(), damping_per_s),
-          observer_gain(noise, rig.period_s(), damping_per_s), noise, damping_per_s};
-}
-
 Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig,
                     const Recording& recording, const ObserverOptions& options) {
   PlantOptions plant_options;
@@ -65,7 +59,6 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   plant_options.heating_start_s = recording.t_s.front();
   Plant plant(model, plant_options);
   plant.reset(recording.y_m.front(), first_velocity(rig, recording), recording.t_s.front());
-  const std::size_t start_rows = settling_rows(rig) / 2;
 
   const bool eccentric = model.has(Term::encoder_eccentricity);
   const double amplitude = model[Parameter::eccentricity_amplitude];
@@ -88,11 +81,13 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   }
   const double longest_step = 3 * rig.period_s();
   double disturbance = 0;
+  std::size_t start = 0;
   for (std::size_t k = 1; k < rows; ++k) {
     const double elapsed = recording.t_s[k] - recording.t_s[k - 1];
     if (elapsed > longest_step) {  // a gap: begin anew behind it, never guess across
       plant.reset(recording.y_m[k], 0, recording.t_s[k]);
       disturbance = 0;
+      start = k;
       if (two_masses) two_masses->restart();
       continue;
     }
@@ -116,7 +111,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
                     state.motor_velocity_m_per_s + gain.motor_velocity_per_s * error);
       continue;
     }
-    const ObserverGain& gain = k < start_rows ? gains.starting : gains.settled;
+    const ObserverGain& gain = gains.at(k - start);
     disturbance = gain.disturbance_decay * disturbance + gain.disturbance_per_s2 * error;
     plant.correct(state.position_m + gain.position * error,
                   state.velocity_m_per_s + gain.velocity_per_s * error);

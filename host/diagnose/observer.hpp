@@ -16,15 +16,6 @@ struct Observation {
   std::vector<double> disturbance_m_per_s2;  ///< acceleration the observer had to add (only if asked for)
 };
 
-/// The gains of a session's observer: eager over the first rows, where the start state is unknown, then
-/// settled.
-struct ObserverGains {
-  ObserverGain starting, settled;
-  NoiseModel noise;  ///< what they come from
-  double damping_per_s = 0;
-};
-ObserverGains observer_gains(const NoiseModel& noise, const Rig& rig, double damping_per_s);
-
 /// Damping of a model for the gain's linear cart: what it says at moderate speed.
 double linear_damping(const Model& model);
 
@@ -34,7 +25,7 @@ struct ObserverOptions {
 };
 
 /// Runs the physical model beside a recording: the recorded voltage held over each tick, friction sticking
-/// exactly, and after each reading a fixed-gain correction of position, velocity and the disturbance
+/// exactly, and after each reading a correction of position, velocity and the disturbance
 /// acceleration:
 ///
 ///     e(k) = y(k) - h(x(k)),   x(k) += K e(k),   v(k) += Kv e(k),   d(k) = phi d(k) + Kd e(k)

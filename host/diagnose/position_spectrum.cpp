@@ -45,7 +45,7 @@ class WaveColumns {
  public:
   WaveColumns(const Session& session, const Fit& base, const FitOptions& options)
       : session_(session),
-        gains_(observer_gains(base.noise, session.rig, options.damping_per_s)),
+        gains_(observer_gains(base.noise, session.rig.period_s(), options.damping_per_s)),
         damping_per_s_(options.damping_per_s) {
     ObserverOptions keep;
     keep.keep_states = true;
@@ -57,7 +57,7 @@ class WaveColumns {
   template <int kLanes>
   void fill(const SineAndCosine& wave, Eigen::MatrixXd& columns) const {
     using Lanes = Eigen::Array<double, kLanes, 1>;
-    const std::size_t skip = settling_rows(session_.rig), starting = skip / 2;
+    const std::size_t skip = settling_rows(session_.rig);
     Eigen::Index row = 0;
     std::size_t first = 0;
     for (std::size_t n = 0; n < session_.recordings.size(); ++n) {
@@ -70,7 +70,7 @@ class WaveColumns {
         push[0] = stuck ? 0 : wave.sine[at - 1];
         push[1] = stuck ? 0 : wave.cosine[at - 1];
         if constexpr (kLanes == 4) reading[2] = wave.sine[at], reading[3] = wave.cosine[at];
-        const Lanes e = influences.step(k < starting, push, reading);
+        const Lanes e = influences.step(k, push, reading);
         if (k >= skip) columns.row(row++) = e.matrix().transpose();
       }
       first += rows;

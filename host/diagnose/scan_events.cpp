@@ -25,7 +25,7 @@ std::vector<double> response(const ObserverGains& gains, const Rig& rig, double 
   double peak = 0;
   for (std::size_t k = 0; k < input_rows + 2000; ++k) {
     const auto [acceleration, reading] = input(k);
-    out.push_back(influence.step(false, acceleration, reading));
+    out.push_back(influence.step(ObserverGains::kSettledRow, acceleration, reading));
     peak = std::max(peak, std::abs(out.back()));
     if (k > input_rows + 20) {
       const bool quiet =
@@ -42,7 +42,7 @@ std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const 
                                  const FitOptions& options) {
   if (base.model.has(Term::external_disturbance)) return {};
   const Rig& rig = session.rig;
-  const ObserverGains gains = observer_gains(base.noise, rig, options.damping_per_s);
+  const ObserverGains gains = observer_gains(base.noise, rig.period_s(), options.damping_per_s);
   const double variance = base.error_rms_m * base.error_rms_m;
   const std::size_t skip = settling_rows(rig);
   struct Found {
@@ -113,7 +113,7 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
   const Rig& rig = session.rig;
   const double count = rig.encoder_resolution_m;
   if (!(count > 0)) return {};
-  const ObserverGains gains = observer_gains(base.noise, rig, options.damping_per_s);
+  const ObserverGains gains = observer_gains(base.noise, rig.period_s(), options.damping_per_s);
   std::vector<double> shape = response(
       gains, rig, options.damping_per_s,
       [](std::size_t) {

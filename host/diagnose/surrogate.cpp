@@ -9,7 +9,7 @@
 
 namespace cartwright {
 NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s) {
-  const ObserverGain gain = observer_gain(fit.noise, rig.period_s(), damping_per_s);
+  const ObserverGain gain = observer_gains(fit.noise, rig.period_s(), damping_per_s).settled;
   const double reading = fit.error_rms_m / std::sqrt(gain.error_variance_ratio);
   return {reading, fit.noise.disturbance_per_reading_per_s2 * reading, fit.noise.correlation_time_s};
 }

@@ -30,7 +30,7 @@ TEST(TwoMassGain, InContactWithAMotorThatWeighsNothingItIsTheGainOfOneMass) {
   const NoiseModel noise{1e4, 0.003};
   TwoMassGain gain(with_gap(0.99), noise, kPeriod_s, kDamping_per_s, kCount_m);
   const TwoMassGain::Gain two = settled(gain, true);
-  const ObserverGain one = observer_gain(noise, kPeriod_s, kDamping_per_s);
+  const ObserverGain one = observer_gains(noise, kPeriod_s, kDamping_per_s).settled;
   EXPECT_NEAR(two.position, one.position, 0.02 * one.position);
   EXPECT_NEAR(two.velocity_per_s, one.velocity_per_s, 0.02 * one.velocity_per_s);
   EXPECT_NEAR(two.error_variance_ratio, one.error_variance_ratio, 0.01 * one.error_variance_ratio);
