@@ -53,7 +53,7 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
   Columns time(count), which(count), position(count), velocity(count), acceleration(count), voltage(count),
       reversal(count), everywhere(count);
   std::vector<std::vector<signed char>> even(count), odd(count);
-  const auto half = static_cast<std::size_t>(std::max(1.0, 0.005 * session.rig.sample_rate_hz));
+  const auto span = static_cast<std::size_t>(std::max(2.0, 0.01 * session.rig.sample_rate_hz));
   for (std::size_t n = 0; n < count; ++n) {
     const Recording& r = session.recordings[n];
     const std::vector<double>& v = seen[n].velocity_m_per_s;
@@ -77,8 +77,8 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
       voltage[n][k] = r.u_V[k - 1];
       reversal[n][k] = std::abs(r.y_m[k - 1] - turned_at);
       everywhere[n][k] = sign;
-      const std::size_t before = k > half ? k - half : 0, after = std::min(k + half, rows - 1);
-      if (after > before) acceleration[n][k] = (v[after] - v[before]) / (r.t_s[after] - r.t_s[before]);
+      // From what came before only: what comes after holds the very disturbance that the axis is to explain.
+      if (k > span) acceleration[n][k] = (v[k] - v[k - span]) / (r.t_s[k] - r.t_s[k - span]);
     }
   }
   std::vector<double> recordings;
