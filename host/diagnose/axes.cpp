@@ -53,7 +53,6 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
   Columns time(count), which(count), position(count), velocity(count), acceleration(count), voltage(count),
       reversal(count), everywhere(count);
   std::vector<std::vector<signed char>> even(count), odd(count);
-  const auto span = static_cast<std::size_t>(std::max(2.0, 0.01 * session.rig.sample_rate_hz));
   for (std::size_t n = 0; n < count; ++n) {
     const Recording& r = session.recordings[n];
     const std::vector<double>& v = seen[n].velocity_m_per_s;
@@ -77,8 +76,7 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
       voltage[n][k] = r.u_V[k - 1];
       reversal[n][k] = std::abs(r.y_m[k - 1] - turned_at);
       everywhere[n][k] = sign;
-      // From what came before only: what comes after holds the very disturbance that the axis is to explain.
-      if (k > span) acceleration[n][k] = (v[k] - v[k - span]) / (r.t_s[k] - r.t_s[k - span]);
+      acceleration[n][k] = seen[n].acceleration_m_per_s2[k];
     }
   }
   std::vector<double> recordings;

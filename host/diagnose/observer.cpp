@@ -18,19 +18,19 @@ constexpr double kFinestReading_m = 1e-6;  // where the rig file gives no resolu
 /// Corrected every tick, the plant needs no more than its own shape right: w h = 0.45.
 constexpr double kStiffStepFactor = 3;
 
-/// Speed of a recording that begins in motion: the parabola through its first readings, so that a cart pushed
-/// from rest is seen to start from rest.
-double first_velocity(const Rig& rig, const Recording& recording) {
-  const auto rows =
-      static_cast<Eigen::Index>(std::min(recording.size(), settling_rows(rig) / 2 + kLeastRowsOfParabola));
+/// Speed at a row where the model starts, zero unless it shows: from the parabola through the readings that
+/// follow, so that a cart pushed from rest is seen to start from rest.
+double start_velocity(const Rig& rig, const Recording& recording, std::size_t first) {
+  const auto rows = static_cast<Eigen::Index>(
+      std::min(recording.size() - first, settling_rows(rig) / 2 + kLeastRowsOfParabola));
   if (rows < static_cast<Eigen::Index>(kLeastRowsOfParabola)) return 0;
   Eigen::MatrixX3d powers(rows, 3);
   Eigen::VectorXd moved(rows);
   for (Eigen::Index k = 0; k < rows; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const double t = recording.t_s[at] - recording.t_s[0];
+    const std::size_t at = first + static_cast<std::size_t>(k);
+    const double t = recording.t_s[at] - recording.t_s[first];
     powers.row(k) << 1, t, t * t;
-    moved[k] = recording.y_m[at] - recording.y_m[0];
+    moved[k] = recording.y_m[at] - recording.y_m[first];
   }
   const double slope = powers.colPivHouseholderQr().solve(moved)[1];
   const double span = powers(rows - 1, 1);
@@ -58,7 +58,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   plant_options.disturbance_active = model.disturbance_recording == recording.file;
   plant_options.heating_start_s = recording.t_s.front();
   Plant plant(model, plant_options);
-  plant.reset(recording.y_m.front(), first_velocity(rig, recording), recording.t_s.front());
+  plant.reset(recording.y_m.front(), start_velocity(rig, recording, 0), recording.t_s.front());
 
   const bool eccentric = model.has(Term::encoder_eccentricity);
   const double amplitude = model[Parameter::eccentricity_amplitude];
@@ -77,6 +77,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   if (two_masses) out.spread.assign(rows, 1.0);
   if (options.keep_states) {
     out.velocity_m_per_s.assign(rows, 0.0);
+    out.acceleration_m_per_s2.assign(rows, 0.0);
     out.disturbance_m_per_s2.assign(rows, 0.0);
   }
   const double longest_step = 3 * rig.period_s();
@@ -85,12 +86,13 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   for (std::size_t k = 1; k < rows; ++k) {
     const double elapsed = recording.t_s[k] - recording.t_s[k - 1];
     if (elapsed > longest_step) {  // a gap: begin anew behind it, never guess across
-      plant.reset(recording.y_m[k], 0, recording.t_s[k]);
+      plant.reset(recording.y_m[k], start_velocity(rig, recording, k), recording.t_s[k]);
       disturbance = 0;
       start = k;
       if (two_masses) two_masses->restart();
       continue;
     }
+    const double velocity_before = plant.state().velocity_m_per_s;
     plant.advance(recording.u_V[k - 1], elapsed, disturbance);
     const PlantState& state = plant.state();
     double reading = state.position_m;
@@ -99,6 +101,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
     out.error_m[k] = error;
     if (options.keep_states) {
       out.velocity_m_per_s[k] = state.velocity_m_per_s;
+      out.acceleration_m_per_s2[k] = (state.velocity_m_per_s - velocity_before) / elapsed;
       out.disturbance_m_per_s2[k] = disturbance;
     }
     if (two_masses) {

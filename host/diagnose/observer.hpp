@@ -13,6 +13,9 @@ struct Observation {
   std::vector<double> error_m;           ///< y(k) - predicted y(k) from rows before k; row 0 is 0
   std::vector<double> spread;            ///< std of an error over that of the reading; empty: all the same
   std::vector<double> velocity_m_per_s;  ///< predicted, before the correction (only if asked for)
+  /// From row k - 1 to k, predicted like the velocity: what readings from k on say of it holds the very
+  /// disturbance that is to be explained.
+  std::vector<double> acceleration_m_per_s2;
   std::vector<double> disturbance_m_per_s2;  ///< acceleration the observer had to add (only if asked for)
 };
 
