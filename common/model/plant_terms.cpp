@@ -31,7 +31,9 @@ double fastest_rate(const Model& m, const PlantTerms& p) {
   double w = p.viscous * (1 + 0.5 * std::abs(p.viscous_difference)) + p.alpha1 + p.gamma;
   const auto oscillates = [&w](double stiffness) { w = std::max(w, std::sqrt(std::abs(stiffness))); };
   oscillates(p.spring);
-  oscillates(p.cogging_amplitude * p.cogging_wavenumber);
+  double steepest = 0;
+  for (const PlantTerms::Wave& wave : p.cogging) steepest += wave.amplitude * wave.wavenumber;
+  oscillates(steepest);
   if (p.stribeck_excess > 0) w = std::max(w, p.stribeck_excess * p.stribeck_inverse_speed);
   if (p.has_bristle) oscillates(p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
   const Joint joint = joint_of(m);
@@ -58,9 +60,10 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   spot_centre = value(Term::position_dependent_friction, Parameter::spot_centre, 0);
   spot_inverse_width = 1 / value(Term::position_dependent_friction, Parameter::spot_width, 1);
   constant = value(Term::constant_force, Parameter::constant_acceleration, 0);
-  cogging_amplitude = value(Term::cogging, Parameter::cogging_amplitude, 0);
-  cogging_wavenumber = kTwoPi / value(Term::cogging, Parameter::cogging_period, 1);
-  cogging_phase = value(Term::cogging, Parameter::cogging_phase, 0);
+  for (const PeriodicTerm& wave : kCoggingWaves) {
+    if (!m.has(Term::cogging) || m[wave.amplitude] == 0) continue;
+    cogging[cogging_waves++] = {m[wave.amplitude], kTwoPi / m[wave.period], m[wave.phase]};
+  }
   spring = value(Term::cable_spring, Parameter::spring_stiffness, 0);
   spring_neutral = value(Term::cable_spring, Parameter::spring_neutral, 0);
   disturbance_start = value(Term::external_disturbance, Parameter::disturbance_start, 0);
@@ -92,7 +95,6 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
 
   has_level_shape = stribeck_excess != 0 || spot_peak != 0;
   has_exponential = m.has(Term::exponential_damping);
-  has_cogging = cogging_amplitude != 0;
   has_disturbance = disturbance_active && disturbance_peak != 0;
   has_current_limit = m.has(Term::current_limit);
   has_lag = lag_s > 0;
@@ -103,7 +105,7 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   rigid_backlash = gap > 0 && joint.rate_per_s == 0;
   varies_in_time = has_lag || has_heating || has_disturbance;
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
-  linear = !(two_masses || varies_in_time || has_level_shape || has_exponential || has_cogging ||
+  linear = !(two_masses || varies_in_time || has_level_shape || has_exponential || cogging_waves > 0 ||
              has_current_limit || has_bristle || spring != 0 || drag != 0);
 
   const double rate = fastest_rate(m, *this);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "common/model/model.hpp"
@@ -22,7 +24,12 @@ struct PlantTerms {
   double alpha1, alpha2, gamma;
   double coulomb, stribeck_excess, stribeck_inverse_speed;
   double spot_peak, spot_centre, spot_inverse_width;
-  double constant, cogging_amplitude, cogging_wavenumber, cogging_phase;
+  double constant;
+  struct Wave {
+    double amplitude, wavenumber, phase;
+  };
+  std::array<Wave, kCoggingWaves.size()> cogging{};
+  std::size_t cogging_waves = 0;  ///< how many of them there are
   double spring, spring_neutral;
   double disturbance_start, disturbance_duration, disturbance_peak;
   double dead_zone, saturation, gain_difference, current_limit;
@@ -31,8 +38,8 @@ struct PlantTerms {
   double gap, coupling_stiffness, coupling_damping;
   double load_share, load_friction_share, load_damping_share;
 
-  bool has_level_shape, has_exponential, has_cogging, has_disturbance, has_current_limit, has_lag, has_delay,
-      has_heating, has_bristle;
+  bool has_level_shape, has_exponential, has_disturbance, has_current_limit, has_lag, has_delay, has_heating,
+      has_bristle;
   bool two_masses, rigid_backlash;
   bool varies_in_time;  ///< net force at a standstill changes while a command is held
   bool breaks_at_rest;  ///< the force, or its slope, jumps where the velocity changes sign
@@ -91,7 +98,8 @@ struct PlantTerms {
 
   double pushes(double y, double time_s) const noexcept {
     double a = constant - spring * (y - spring_neutral);
-    if (has_cogging) a += cogging_amplitude * std::sin(cogging_wavenumber * y + cogging_phase);
+    for (std::size_t i = 0; i < cogging_waves; ++i)
+      a += cogging[i].amplitude * std::sin(cogging[i].wavenumber * y + cogging[i].phase);
     if (has_disturbance) {
       const double x = (time_s - disturbance_start) / disturbance_duration;
       if (x > 0 && x < 1) {

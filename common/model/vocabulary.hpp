@@ -55,6 +55,12 @@ enum class Parameter {
   cogging_amplitude,
   cogging_period,
   cogging_phase,
+  cogging_second_amplitude,
+  cogging_second_period,
+  cogging_second_phase,
+  cogging_third_amplitude,
+  cogging_third_period,
+  cogging_third_phase,
   backlash_gap,
   backlash_load_share,
   backlash_load_friction_share,
@@ -88,7 +94,19 @@ enum class Parameter {
   disturbance_peak,
   amplifier_gain_difference,
 };
-inline constexpr std::size_t kParameterCount = 48;
+inline constexpr std::size_t kParameterCount = 54;
+
+/// The numbers of something that repeats along the way.
+struct PeriodicTerm {
+  Parameter amplitude, period, phase;
+};
+/// The waves of the cogging: poles, slots and teeth each bring their own, and their multiples. One is part of
+/// a model where its amplitude is not zero.
+inline constexpr std::array<PeriodicTerm, 3> kCoggingWaves{{
+    {Parameter::cogging_amplitude, Parameter::cogging_period, Parameter::cogging_phase},
+    {Parameter::cogging_second_amplitude, Parameter::cogging_second_period, Parameter::cogging_second_phase},
+    {Parameter::cogging_third_amplitude, Parameter::cogging_third_period, Parameter::cogging_third_phase},
+}};
 
 struct ParameterInfo {
   Parameter id;

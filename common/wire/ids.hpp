@@ -176,6 +176,12 @@ enum class Id : std::size_t {
   model_cable_spring_neutral_m,
   model_quadratic_drag_coefficient_per_m,
   model_amplifier_gain_asymmetry_relative_difference,
+  model_cogging_second_amplitude_m_per_s2,
+  model_cogging_second_period_m,
+  model_cogging_second_phase_rad,
+  model_cogging_third_amplitude_m_per_s2,
+  model_cogging_third_period_m,
+  model_cogging_third_phase_rad,
   adaptive_range,
   adaptive_ka,
   adaptive_kb,
@@ -217,6 +223,6 @@ enum class Id : std::size_t {
   notice_time_s,
   notice_text,
 };
-inline constexpr std::size_t kRegisterCount = 210;
+inline constexpr std::size_t kRegisterCount = 216;
 
 }  // namespace cartwright::wire

@@ -11,7 +11,7 @@ namespace cartwright::wire {
 
 /// The registers that hold the model of the compensation: every parameter of a term that the feed-forward can
 /// invert. A term is part of the model when one of its registers differs from the initial value.
-inline constexpr std::array<std::pair<Parameter, Id>, 21> kModelRegisters{{
+inline constexpr std::array<std::pair<Parameter, Id>, 27> kModelRegisters{{
     {Parameter::voltage_gain, Id::model_voltage_gain_m_per_s2_V},
     {Parameter::viscous_coefficient, Id::model_viscous_friction_coefficient_per_s},
     {Parameter::coulomb_level, Id::model_coulomb_friction_level_m_per_s2},
@@ -33,6 +33,12 @@ inline constexpr std::array<std::pair<Parameter, Id>, 21> kModelRegisters{{
     {Parameter::spring_neutral, Id::model_cable_spring_neutral_m},
     {Parameter::drag_coefficient, Id::model_quadratic_drag_coefficient_per_m},
     {Parameter::amplifier_gain_difference, Id::model_amplifier_gain_asymmetry_relative_difference},
+    {Parameter::cogging_second_amplitude, Id::model_cogging_second_amplitude_m_per_s2},
+    {Parameter::cogging_second_period, Id::model_cogging_second_period_m},
+    {Parameter::cogging_second_phase, Id::model_cogging_second_phase_rad},
+    {Parameter::cogging_third_amplitude, Id::model_cogging_third_amplitude_m_per_s2},
+    {Parameter::cogging_third_period, Id::model_cogging_third_period_m},
+    {Parameter::cogging_third_phase, Id::model_cogging_third_phase_rad},
 }};
 
 /// The words for compensation_mode 0, 1 and 2.

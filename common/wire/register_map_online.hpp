@@ -8,7 +8,7 @@ namespace cartwright::wire {
 
 /// The part of the map that belongs to friction compensation and to identification while running, and the
 /// log's schema, whose columns outgrew their old place. Follows the registers of register_map.cpp.
-inline constexpr std::array<Register, 64> kOnlineRegisters{{
+inline constexpr std::array<Register, 70> kOnlineRegisters{{
     {Id::log_schema, "log_schema", 4300, Type::text, 240, "", Access::read, 0, 0, 0,
      "names of the columns, comma between"},
     {Id::compensation_mode, "compensation_mode", 4600, Type::u16, 1, "", Access::command, 0, 2, 0,
@@ -60,6 +60,18 @@ inline constexpr std::array<Register, 64> kOnlineRegisters{{
     {Id::model_amplifier_gain_asymmetry_relative_difference,
      "model_amplifier_gain_asymmetry_relative_difference", 4643, Type::f32, 1, "", Access::command, -2, 2, 0,
      "difference of the gain between signs of the voltage"},
+    {Id::model_cogging_second_amplitude_m_per_s2, "model_cogging_second_amplitude_m_per_s2", 4645, Type::f32,
+     1, "m/s^2", Access::command, 0, 1000000, 0, "second wave of the cogging"},
+    {Id::model_cogging_second_period_m, "model_cogging_second_period_m", 4647, Type::f32, 1, "m",
+     Access::command, 1e-06, 1000000, 1, "its period"},
+    {Id::model_cogging_second_phase_rad, "model_cogging_second_phase_rad", 4649, Type::f32, 1, "rad",
+     Access::command, -1000000, 1000000, 0, "its phase at y = 0"},
+    {Id::model_cogging_third_amplitude_m_per_s2, "model_cogging_third_amplitude_m_per_s2", 4651, Type::f32, 1,
+     "m/s^2", Access::command, 0, 1000000, 0, "third wave of the cogging"},
+    {Id::model_cogging_third_period_m, "model_cogging_third_period_m", 4653, Type::f32, 1, "m",
+     Access::command, 1e-06, 1000000, 1, "its period"},
+    {Id::model_cogging_third_phase_rad, "model_cogging_third_phase_rad", 4655, Type::f32, 1, "rad",
+     Access::command, -1000000, 1000000, 0, "its phase at y = 0"},
     {Id::adaptive_range, "adaptive_range", 4700, Type::f32, 1, "", Access::command, 0, 100, 1,
      "how far estimates may leave the model, as a part of it"},
     {Id::adaptive_ka, "adaptive_ka", 4702, Type::f32, 1, "V/m", Access::command, 0, 1000000, 20,

@@ -37,7 +37,8 @@ SimpleCart simple_cart(const Model& m, const Trials& trials) {
 double breakaway_V(const Model& m) {
   double level = 0;
   for (const Parameter p : {Parameter::coulomb_level, Parameter::stribeck_excess, Parameter::spot_peak,
-                            Parameter::cogging_amplitude, Parameter::constant_acceleration}) {
+                            Parameter::cogging_amplitude, Parameter::cogging_second_amplitude,
+                            Parameter::cogging_third_amplitude, Parameter::constant_acceleration}) {
     if (m.has(*info(p).term)) level += std::abs(m[p]);
   }
   return level / m[Parameter::voltage_gain] +

@@ -22,6 +22,14 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
+/// A further wave of the cogging that the model does not have.
+bool of_absent_wave(P parameter, const Model& model) {
+  return std::any_of(kCoggingWaves.begin() + 1, kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
+    return model[wave.amplitude] == 0 &&
+           (parameter == wave.amplitude || parameter == wave.period || parameter == wave.phase);
+  });
+}
+
 }  // namespace
 
 SessionFacts facts_of(const Session& session) {
@@ -86,6 +94,8 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
     case P::constant_acceleration:
     case P::spot_peak:
     case P::cogging_amplitude:
+    case P::cogging_second_amplitude:
+    case P::cogging_third_amplitude:
     case P::disturbance_peak:
       free.scale = drive;
       break;
@@ -101,6 +111,8 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       logarithmic(0.003 * travel, 0.5 * travel);
       break;
     case P::cogging_period:
+    case P::cogging_second_period:
+    case P::cogging_third_period:
     case P::eccentricity_period:
       logarithmic(1e-3 * travel, 2 * travel);
       break;
@@ -169,6 +181,7 @@ std::vector<FreeParameter> free_parameters(const Model& model, const SessionFact
     if (entry.term && !model.has(*entry.term)) continue;
     // Speed threshold and rate of lost counts are read off the bursts, not fitted.
     if (entry.term == T::encoder_missed_counts) continue;
+    if (of_absent_wave(entry.id, model)) continue;
     free.push_back(free_parameter(entry.id, facts, model));
   }
   return free;

@@ -71,6 +71,30 @@ TEST(Cogging, RestsOnlyWhereItsPushFallsThroughZero) {
   }
 }
 
+TEST(Cogging, IsTheSumOfItsWaves) {
+  const Model first =
+      Model(1.0).set(P::cogging_amplitude, 2).set(P::cogging_period, 0.02).set(P::cogging_phase, 0.7);
+  const Model second =
+      Model(1.0).set(P::cogging_amplitude, 1.2).set(P::cogging_period, 0.007).set(P::cogging_phase, 2);
+  const Model third =
+      Model(1.0).set(P::cogging_amplitude, 0.5).set(P::cogging_period, 0.003).set(P::cogging_phase, -1);
+  Model all = first;
+  all.set(P::cogging_second_amplitude, 1.2)
+      .set(P::cogging_second_period, 0.007)
+      .set(P::cogging_second_phase, 2);
+  all.set(P::cogging_third_amplitude, 0.5)
+      .set(P::cogging_third_period, 0.003)
+      .set(P::cogging_third_phase, -1);
+  const double short_s = 1e-5;  // so that the push is still that of the start
+  const auto push_at = [&](const Model& model, double y) {
+    Plant plant = plant_at(model, y);
+    plant.advance(0, short_s);
+    return plant.state().velocity_m_per_s / short_s;
+  };
+  for (double y = -0.02; y < 0.02; y += 0.0013)
+    EXPECT_NEAR(push_at(all, y), push_at(first, y) + push_at(second, y) + push_at(third, y), 1e-5) << y;
+}
+
 TEST(CableSpring, SwingsAboutItsNeutralPointWithPeriodTwoPiOverRootK) {
   const double stiffness = 30, neutral = 0.05, period_s = 2 * std::numbers::pi / std::sqrt(stiffness);
   Plant plant =
