@@ -10,6 +10,7 @@
 #include "host/diagnose/held_out.hpp"
 #include "host/diagnose/lost_counts.hpp"
 #include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/remarks.hpp"
 #include "host/diagnose/statement.hpp"
 #include "host/diagnose/surrogate.hpp"
 #include "host/statistics/distributions.hpp"
@@ -120,7 +121,8 @@ class Diagnostician {
     name_effects(used);
     name_parameters();
     propose(used);
-    remark();
+    const std::vector<std::string> said = remarks(session_, nominal_, options_.held, result_);
+    result_.remarks.insert(result_.remarks.end(), said.begin(), said.end());
     report("done", 1);
     return std::move(result_);
   }
@@ -147,9 +149,10 @@ class Diagnostician {
     const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
     const double of_likelihood = left > 0 ? left / (left + gained) : 0;
     const double of_windows = left > 0 ? window_share_left() : 0;
-    const bool refused = of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood;
-    if (left > 0 && (refused || of_likelihood > 0.05))
-      describe_left_over(std::max(of_windows, of_likelihood), refused);
+    const bool idle = predicts_less_than_uniform_motion();
+    const bool refused = idle || of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood;
+    if (idle || (left > 0 && (refused || of_likelihood > 0.05)))
+      describe_left_over(idle ? 1 : std::max(of_windows, of_likelihood), refused);
     if (refused) {
       result_.verdict = Verdict::unexplained;
       result_.model = found.refitted.fit.model;
@@ -170,6 +173,12 @@ class Diagnostician {
     // What was kept out counts where it shows the mismatch at all.
     const bool shows = held_floor_m_ > 0 && result_.held_out.refitted > kShowsMismatch * held_floor_m_;
     return shows ? std::max(of_used, excess_left(result_.held_out, held_floor_m_)) : of_used;
+  }
+
+  /// Where the forces of a model predict windows worse than a cart without any, which keeps its speed, what
+  /// was added to them explains nothing, however well it fits.
+  bool predicts_less_than_uniform_motion() const {
+    return !result_.search.contests.empty() && result_.used.with_effects > result_.uniform_motion_m;
   }
 
   bool values_changed() const {
@@ -197,7 +206,12 @@ class Diagnostician {
     } else if (!found.promises.empty()) {
       left.closest = found.promises.front().term;
     }
-    if (left.closest && refused) {
+    if (left.closest && predicts_less_than_uniform_motion()) {
+      left.why_refused = fmt::format(
+          "{} comes closest, but with it windows are predicted worse ({:.3g} um) than by a cart that just "
+          "keeps its speed ({:.3g} um)",
+          info(*left.closest).name, 1e6 * result_.used.with_effects, 1e6 * result_.uniform_motion_m);
+    } else if (left.closest && refused) {
       left.why_refused = fmt::format(
           "{} comes closest, but with it {:.0f} % of what the model misses is still there, far above chance",
           info(*left.closest).name, 100 * share_left);
@@ -223,6 +237,7 @@ class Diagnostician {
       return e;
     };
     result_.used = errors(window_rmse_m, used, repaired);
+    result_.uniform_motion_m = window_rmse_m(Model(0.0), repaired, options_.threads);
     result_.used_closed_loop = errors(closed_loop_rmse_m, used, repaired);
     if (!held.empty()) {
       const Session out = only(session_, held);
@@ -334,33 +349,6 @@ class Diagnostician {
     const Fit& fit = result_.verdict == Verdict::missing_physics ? result_.search.best.fit : refit;
     for (const FreeParameter& p : refit.free) {
       result_.parameters.push_back({p.id, nominal_[p.id], estimate(fit, p.id), refit.model[p.id]});
-    }
-  }
-
-  void remark() {
-    for (const P id : options_.held)
-      result_.remarks.push_back(
-          fmt::format("{} was held at {:.6g}, as given.", dotted_name(id), nominal_[id]));
-    const auto& list = session_.recordings;
-    const double found = result_.search.refitted.fit.model[P::voltage_gain];
-    if (found * nominal_[P::voltage_gain] < 0) {
-      result_.remarks.push_back(
-          "The cart moves against the voltage: the sign of y_m or of u_V, or the wiring, is reversed.");
-    }
-    if (result_.unexplained && result_.unexplained->axis == "recording") {
-      result_.remarks.push_back(
-          "What is missing differs between recordings: another cart, load or setting, or one that changed.");
-    }
-    if (list.size() == 1) result_.remarks.push_back("One recording only: nothing could be held out.");
-    if (std::none_of(list.begin(), list.end(), [](const Recording& r) { return !r.repeat_of.empty(); })) {
-      result_.remarks.push_back("No repeats: the noise floor rests on the fitted noise alone.");
-    }
-    const auto foreign =
-        std::count_if(list.begin(), list.end(), [](const Recording& r) { return !r.has_controller(); });
-    if (foreign > 0) {
-      result_.remarks.push_back(
-          fmt::format("{} of {} recordings come without a control law: judged from the recorded voltage.",
-                      foreign, list.size()));
     }
   }
 

@@ -72,6 +72,7 @@ struct Diagnosis {
   Errors used, held_out;                          ///< of 0.5 s windows
   Errors used_closed_loop, held_out_closed_loop;  ///< NaN where no recording comes with a controller
   double noise_floor_m = 0;
+  double uniform_motion_m = 0;  ///< window error of a cart without forces, which keeps its speed
   std::vector<std::string> held_out_recordings;
   std::optional<Unexplained> unexplained;
   std::optional<NextExperiment> next_experiment;

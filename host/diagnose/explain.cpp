@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/diagnose/basis.hpp"
+#include "host/diagnose/plausible.hpp"
 #include "host/diagnose/promises.hpp"
 #include "host/parallel.hpp"
 
@@ -31,9 +32,6 @@ constexpr double kNearTheBest = 0.7;          // of the best gain
 constexpr double kWorthFinishing = 0.3;       // of the best gain
 constexpr double kLeastShareOfBest = 0.03;    // of the best promise
 constexpr std::size_t kRivalsAskedAgain = 2;  // of each effect, once there are further ones
-/// The lines of an encoder stand no nearer to their places than half a count: a smaller error is the encoder
-/// itself, not the way it was mounted.
-constexpr double kLeastEccentricity = 0.5;
 
 class Explainer {
  public:
@@ -73,6 +71,7 @@ class Explainer {
       swap_stand_ins(search);
       drop_redundant(search);
     }
+    add_cogging_waves(search);
     report("done", 1);
     return search;
   }
@@ -138,22 +137,11 @@ class Explainer {
     if (lost) tried.push_back(*lost);
     tried = best_per_term(std::move(tried));
     finish_best(tried, base.score());
-    std::erase_if(tried, [this](const Explanation& one) { return !plausible(one, one.effects.back()); });
+    std::erase_if(tried, [this](const Explanation& one) {
+      return !plausible(one.fit, one.effects.back(), session_, facts_);
+    });
     put_simplest_first(tried, base.score());
     return tried;
-  }
-
-  /// What is at its height before the errors of its recording count is a start state that does not fit, not a
-  /// push.
-  bool inside_its_recording(const Model& model) const {
-    const auto r =
-        std::find_if(session_.recordings.begin(), session_.recordings.end(),
-                     [&](const Recording& one) { return one.file == model.disturbance_recording; });
-    if (r == session_.recordings.end() || r->size() <= settling_rows(session_.rig)) return false;
-    const double start_s = model[Parameter::disturbance_start];
-    const double duration_s = model[Parameter::disturbance_duration];
-    return start_s >= r->t_s.front() && start_s + duration_s <= r->t_s.back() &&
-           start_s + 0.5 * duration_s >= r->t_s[settling_rows(session_.rig)];
   }
 
   /// A law with more numbers may lead only because it bends towards what is still missing. The simplest that
@@ -167,26 +155,6 @@ class Explainer {
       if (one->fit.free.size() < simplest->fit.free.size()) simplest = one;
     }
     std::rotate(tried.begin(), simplest, simplest + 1);
-  }
-
-  /// An effect of an explanation has numbers that its physics can have and this rig can show.
-  bool plausible(const Explanation& one, Term term) const {
-    for (const FreeParameter& p : one.fit.free) {
-      const bool optional = info(p.id).default_value.has_value();  // rigid teeth are teeth
-      if (info(p.id).term == term && !optional && p.logarithmic && one.fit.at_bound(p.id)) return false;
-    }
-    const double count = session_.rig.encoder_resolution_m;
-    if (term == Term::backlash) return one.fit.model[Parameter::backlash_gap] >= count;
-    // A period that the way does not hold twice is not seen to repeat: any bend of a force would look like
-    // it.
-    const double longest_m = facts_.travel_m() / 2;
-    if (term == Term::cogging) return one.fit.model[Parameter::cogging_period] <= longest_m;
-    if (term == Term::encoder_eccentricity) {
-      return one.fit.model[Parameter::eccentricity_period] <= longest_m &&
-             one.fit.model[Parameter::eccentricity_amplitude] >= kLeastEccentricity * count;
-    }
-    if (term == Term::external_disturbance) return inside_its_recording(one.fit.model);
-    return true;
   }
 
   /// Fits the leading explanations to the end; the rest are only there to be told from.
@@ -345,7 +313,7 @@ class Explainer {
                    [&](std::size_t n) { rivals[n] = in_place_of(search.best, i, rivals[n]); });
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
-        if (better < kLeastGain || !plausible(swapped, swapped.effects[i])) continue;
+        if (better < kLeastGain || !plausible(swapped.fit, swapped.effects[i], session_, facts_)) continue;
         Explanation beaten = search.best;
         std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
                     beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
@@ -365,6 +333,26 @@ class Explainer {
       search.best = std::move(without);
       search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));
       return;
+    }
+  }
+
+  /// Cogging may repeat with several periods. Each further one must gain what an effect must; it is no effect
+  /// of its own.
+  void add_cogging_waves(Search& search) const {
+    const auto cogging = std::find_if(search.contests.begin(), search.contests.end(),
+                                      [](const Contest& one) { return one.chosen == Term::cogging; });
+    if (cogging == search.contests.end()) return;
+    const Session data = without_jumps(session_, search.best.jumps);
+    while (const auto wave =
+               scan_further_wave(data, search.best.fit, facts_, fit_options_, options_.threads)) {
+      if (wave->log_likelihood_gain < kLeastGain / kMostGainOverPromise) return;
+      Explanation further = search.best;
+      further.fit =
+          fit(data, wave->start, search.best.fit.noise, wave->free, with_kinks(wave->start, fit_options_));
+      const double gain = further.score() - search.best.score();
+      if (gain < kLeastGain || !plausible(further.fit, Term::cogging, session_, facts_)) return;
+      cogging->gain += gain;
+      search.best = std::move(further);
     }
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/diagnose/screen.hpp"
@@ -13,6 +14,11 @@ namespace cartwright {
 /// Cogging and encoder eccentricity: spatial frequencies up to the finest that speed and travel resolve.
 std::vector<Promise> scan_periods(const Session& session, const Fit& base, const SessionFacts& facts,
                                   const FitOptions& options, unsigned threads);
+
+/// A further wave of the cogging that `base` has: what promises most away from the waves it has. None where
+/// there are three.
+std::optional<Promise> scan_further_wave(const Session& session, const Fit& base, const SessionFacts& facts,
+                                         const FitOptions& options, unsigned threads);
 
 /// A push in one recording: matched filter over start and duration.
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,

@@ -5,6 +5,19 @@
 #include <cmath>
 
 namespace cartwright {
+namespace {
+
+std::string statement_of_cogging(const Model& m) {
+  std::vector<std::string> waves;
+  for (const PeriodicTerm& wave : kCoggingWaves) {
+    if (m[wave.amplitude] == 0) continue;
+    waves.push_back(
+        fmt::format("+-{:.3g} m/s^2, repeating every {:.4g} mm", m[wave.amplitude], 1e3 * m[wave.period]));
+  }
+  return fmt::format("The motor cogs: {}.", fmt::join(waves, "; "));
+}
+
+}  // namespace
 
 std::string statement(Term term, const Model& m) {
   using P = Parameter;
@@ -37,8 +50,7 @@ std::string statement(Term term, const Model& m) {
       return fmt::format("The rail rubs at y = {:.4g} mm: {:.3g} m/s^2 of extra friction, {:.3g} mm wide.",
                          1e3 * m[P::spot_centre], m[P::spot_peak], 1e3 * m[P::spot_width]);
     case Term::cogging:
-      return fmt::format("The motor cogs: +-{:.3g} m/s^2, repeating every {:.4g} mm.",
-                         m[P::cogging_amplitude], 1e3 * m[P::cogging_period]);
+      return statement_of_cogging(m);
     case Term::backlash:
       return fmt::format("The motor turns {:.3g} mm before the cart follows, after every reversal.",
                          1e3 * m[P::backlash_gap]);
@@ -95,7 +107,11 @@ std::string statement_of_periods(const std::vector<double>& periods_m) {
   if (periods_m.empty()) return {};
   std::vector<std::string> words;
   for (const double period_m : periods_m) words.push_back(fmt::format("{:.4g} mm", 1e3 * period_m));
-  return fmt::format("A push that repeats every {} is left without a name.", fmt::join(words, ", every "));
+  return fmt::format(
+      "A push that repeats every {} is left without a name; cogging would, or a screw or wheel that runs out "
+      "of "
+      "true.",
+      fmt::join(words, ", every "));
 }
 
 }  // namespace cartwright

@@ -184,6 +184,23 @@ TEST(Diagnosis, FindsAPushInTheRecordingItWouldHaveKeptOut) {
   EXPECT_TRUE(d.held_out_recordings.empty());
 }
 
+TEST(Diagnosis, NamesCoggingWithEachOfItsPeriods) {
+  IndependentCart cart;
+  cart.push = [](double, double y, double) {
+    return 0.4 * std::sin(2 * M_PI * y / 0.021 + 1) + 0.1 * std::sin(2 * M_PI * y / 0.007 - 0.5);
+  };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().term, Term::cogging);
+  EXPECT_FALSE(d.unexplained.has_value());
+  const Estimate* period = found(d, P::cogging_second_period);
+  ASSERT_NE(period, nullptr);
+  EXPECT_NEAR(period->value, 0.007, 2e-5);
+  EXPECT_NEAR(d.model[P::cogging_period], 0.021, 2e-5);
+  EXPECT_NEAR(d.model[P::cogging_second_amplitude], 0.1, 0.01);
+  EXPECT_EQ(d.model[P::cogging_third_amplitude], 0);
+}
+
 TEST(Diagnosis, NamesTwoEffectsAtOnce) {
   IndependentCart cart;
   cart.delay_ticks = 4;

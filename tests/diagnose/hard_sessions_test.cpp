@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "host/diagnose/diagnosis.hpp"
 #include "tests/diagnose/independent_cart.hpp"
@@ -50,6 +52,51 @@ TEST(HardSessions, ANominalModelThatIsWildlyOffIsOnlyOff) {
   EXPECT_NEAR(d.model[P::voltage_gain], 1.9, 0.01);
   EXPECT_NEAR(d.model[P::viscous_coefficient], 5, 0.05);
   EXPECT_NEAR(d.model[P::coulomb_level], 0.4, 0.01);
+}
+
+/// A motor that cogs, turned at 30 mm/s by a servo, whose current is reported late and with noise: the forces
+/// nearly balance, and what is known of them predicts less than that the speed stays.
+Recording slow_servo(double duration_s) {
+  constexpr double kStep_s = 1e-4, kRate_per_s = 500, kSpeed_m_per_s = 0.03, kGain = 40, kFriction = 7;
+  const auto cogging = [](double y) {
+    double push = 0;
+    for (int n = 1; n <= 6; ++n) push += 30.0 / n * std::sin(2 * M_PI * n * y / 0.03 + n * n);
+    return push;
+  };
+  Recording r;
+  r.file = "slow.csv";
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise;
+  double y = 0, v = kSpeed_m_per_s, integral_A = 0;
+  std::vector<double> current_A;
+  for (std::size_t step = 0; static_cast<double>(step) * kStep_s < duration_s; ++step) {
+    const double error = kSpeed_m_per_s - v;
+    integral_A = std::clamp(integral_A + 200 * error * kStep_s, -3.0, 3.0);
+    current_A.push_back(5 * error + integral_A);
+    v += kStep_s * (kGain * current_A.back() + cogging(y) - std::copysign(kFriction, v) + 20 * noise(random));
+    y += kStep_s * v;
+    const auto row = static_cast<std::size_t>(std::lround(1 / (kRate_per_s * kStep_s)));
+    if (step % row != 0) continue;
+    r.t_s.push_back(static_cast<double>(step) * kStep_s);
+    r.y_m.push_back(y + 5e-5 * noise(random));
+    r.u_V.push_back(current_A[step - std::min<std::size_t>(step, 40)] + 0.03 * noise(random));
+  }
+  return r;
+}
+
+TEST(HardSessions, ForcesThatPredictLessThanAnUnchangedSpeedGetNoName) {
+  Session session;
+  session.rig.sample_rate_hz = 500;
+  session.rig.encoder_resolution_m = 1e-5;
+  session.recordings = {slow_servo(8)};
+  DiagnoseOptions options;
+  options.held = {P::voltage_gain};
+  const Diagnosis d =
+      diagnose(session, Model(40).set(P::viscous_coefficient, 0).set(P::coulomb_level, 10), options);
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  EXPECT_TRUE(d.effects.empty());
+  ASSERT_TRUE(d.unexplained.has_value());
+  EXPECT_THAT(d.unexplained->why_refused, HasSubstr("keeps its speed"));
 }
 
 TEST(HardSessions, OneRecordingIsEnoughToSayThatNothingIsMissingAndSaysWhatItCannot) {

@@ -99,6 +99,23 @@ TEST_F(Rigs, TheCoggingOfABrushlessMotorIsNamedWithItsPeriod) {
   EXPECT_NEAR(d.model[P::cogging_amplitude] / d.model[P::voltage_gain], 0.9, 0.2);
 }
 
+/// The same motor turned slowly by a servo: the current only balances what cogs and rubs. Seven periods a
+/// revolution stand above chance, but no force predicts more than that the speed stays.
+TEST_F(Rigs, AServoThatHoldsItsSpeedGetsNoNameButAPeriod) {
+  const auto data = session("odrive_cogging", "odrive_cogging.toml", {"slow2_nocomp_0.mat"});
+  const auto fast = session("odrive_cogging", "odrive_spinup.toml", {"accel_tests_spinup_4_nocomp.mat"});
+  if (!data || !fast) GTEST_SKIP() << "no odrive_cogging recordings; set CARTWRIGHT_RECORDINGS";
+  DiagnoseOptions options;
+  options.held = {P::voltage_gain, P::viscous_coefficient};
+  const Diagnosis d =
+      diagnose(*data, identified(*fast, {Term::viscous_friction, Term::coulomb_friction}), options);
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  ASSERT_TRUE(d.unexplained.has_value());
+  ASSERT_FALSE(d.unexplained->periods_m.empty());
+  const double resolved = 1.0;  // of a way of one revolution [periods a revolution]
+  EXPECT_NEAR(1 / d.unexplained->periods_m.front(), 7, 0.5 * resolved);
+}
+
 /// EMPS told only its inertia and viscous friction; half of one record at a fifth of its rate, to be quick.
 TEST_F(Rigs, FrictionLeftOutOfEmpsIsFoundAndPredictsTheOtherRecord) {
   const auto data = session("emps", "emps.toml", {"DATA_EMPS.mat", "DATA_EMPS_PULSES.mat"}, 0, 12.5);
