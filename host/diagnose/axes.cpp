@@ -79,8 +79,12 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
       acceleration[n][k] = seen[n].acceleration_m_per_s2[k];
     }
   }
-  std::vector<double> recordings;
-  for (std::size_t n = 0; n <= count; ++n) recordings.push_back(static_cast<double>(n) - 0.5);
+  std::vector<double> recordings{-0.5};
+  std::vector<std::string> files;
+  for (std::size_t n = 0; n < count; ++n) {
+    recordings.push_back(static_cast<double>(n) + 0.5);
+    files.push_back(session.recordings[n].file);
+  }
   std::vector<AxisBins> axes;
   const auto add = [&](const char* name, const char* parity, const Columns& values) {
     const bool is_odd = std::string_view(parity) == "odd";
@@ -90,6 +94,7 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
   add("time_s", "odd", time);
   axes.push_back(binned("recording", "even", which, recordings, even));
   axes.push_back(binned("recording", "odd", which, recordings, odd));
+  for (auto both = axes.end() - 2; both != axes.end(); ++both) both->names = files;
   add("position_m", "even", position);
   add("position_m", "odd", position);
   add("velocity_m_per_s", "even", velocity);

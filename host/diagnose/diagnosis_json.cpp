@@ -61,14 +61,16 @@ Json effect_json(const Effect& effect, const Model& model) {
 }
 
 Json map_json(const AxisMap& map) {
-  return {{"axis", map.axis},
-          {"parity", map.parity},
-          {"flat", map.flat()},
-          {"share", number(map.share)},
-          {"low", numbers(map.low)},
-          {"high", numbers(map.high)},
-          {"push_m_per_s2", numbers(map.push_m_per_s2)},
-          {"band_m_per_s2", numbers(map.band_m_per_s2)}};
+  Json out{{"axis", map.axis},
+           {"parity", map.parity},
+           {"flat", map.flat()},
+           {"share", number(map.share)},
+           {"low", numbers(map.low)},
+           {"high", numbers(map.high)},
+           {"push_m_per_s2", numbers(map.push_m_per_s2)},
+           {"band_m_per_s2", numbers(map.band_m_per_s2)}};
+  if (!map.names.empty()) out["names"] = map.names;
+  return out;
 }
 
 Json profile_json(const Profile& profile) {

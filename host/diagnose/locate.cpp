@@ -12,7 +12,7 @@
 namespace cartwright {
 namespace {
 
-/// Upper 0.5 per cent point of a chi-square, halved to nats, Wilson-Hilferty; the share is per axis.
+/// Upper point of a chi-square at a normal quantile, halved to nats (Wilson-Hilferty).
 double chance_bar(double freedom, double upper_normal) {
   const double a = 2 / (9 * freedom);
   const double root = 1 - a + upper_normal * std::sqrt(a);
@@ -24,7 +24,8 @@ constexpr double kLeastTold = 1e-3;
 
 AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
                double damping, double looks) {
-  AxisMap map{axis.axis, axis.parity, {}, {}, {}, {}, 0, 0, 0};
+  AxisMap map;
+  map.axis = axis.axis, map.parity = axis.parity, map.names = axis.names;
   if (axis.edges.size() < 2) return map;
   const auto bins = static_cast<Eigen::Index>(axis.edges.size()) - 1;
   Eigen::MatrixXd columns(basis.e.size(), bins);

@@ -15,10 +15,11 @@ struct AxisMap {
   std::string axis;    ///< `position_m`, `velocity_m_per_s`, ... as in diagnosis.json
   std::string parity;  ///< "even": the same push both ways; "odd": a push against the motion; "" elsewhere
   std::vector<double> low, high;      ///< bin edges
+  std::vector<std::string> names;     ///< of the bins, where they are no numbers: the recordings
   std::vector<double> push_m_per_s2;  ///< estimate; for odd maps positive is extra friction
   std::vector<double> band_m_per_s2;  ///< half width of the simultaneous band
   double gain = 0;                    ///< log-likelihood gained by the whole axis [nats]
-  double bar = 0;                     ///< what chance alone reaches on one of the axes in 1 of 100 sessions
+  double bar = 0;                     ///< what chance alone reaches on one of the axes in 1 of 2000 sessions
   double share = 0;                   ///< of the disturbance power that the observer had to add
   bool flat() const { return gain <= bar; }
   /// The widest stretch of neighbouring bins outside the band; empty where there is none.

@@ -92,6 +92,14 @@ void add_location(Report& page, const Diagnosis& d) {
     }
   }
   if (!plots.empty()) page.plots(plots, 2);
+  const auto numbered = std::find_if(d.before.axes.begin(), d.before.axes.end(),
+                                     [](const AxisMap& map) { return !map.flat() && !map.names.empty(); });
+  if (numbered != d.before.axes.end()) {
+    std::string names;
+    for (std::size_t i = 0; i < numbered->names.size(); ++i)
+      names += fmt::format("{}{} is {}", i == 0 ? "" : ", ", i, numbered->names[i]);
+    page.note("On the axis of recordings " + names + ".");
+  }
   if (!flat.empty()) page.note("Looked at and flat: " + flat + ".");
   if (d.before.repeat_z != 0) {
     page.note(

@@ -3,8 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cartwright {
+namespace {
+
+/// The name of the bin that stands farthest above chance.
+std::string strongest_bin(const AxisMap& map) {
+  std::size_t strongest = 0;
+  const auto above_chance = [&](std::size_t i) {
+    return map.band_m_per_s2[i] > 0 ? std::abs(map.push_m_per_s2[i]) / map.band_m_per_s2[i] : 0.0;
+  };
+  for (std::size_t i = 1; i < map.names.size(); ++i) {
+    if (above_chance(i) > above_chance(strongest)) strongest = i;
+  }
+  return map.names[strongest];
+}
+
+}  // namespace
 
 std::vector<std::string> remarks(const Session& session, const Model& nominal,
                                  const std::vector<Parameter>& held, const Diagnosis& diagnosis) {
@@ -17,8 +33,10 @@ std::vector<std::string> remarks(const Session& session, const Model& nominal,
         "The cart moves against the voltage: the sign of y_m or of u_V, or the wiring, is reversed.");
   }
   if (diagnosis.unexplained && diagnosis.unexplained->axis == "recording") {
-    out.push_back(
-        "What is missing differs between recordings: another cart, load or setting, or one that changed.");
+    out.push_back(fmt::format(
+        "What is missing differs between recordings, most in {}: another cart, load or setting, or one that "
+        "changed.",
+        strongest_bin(diagnosis.unexplained->curve)));
   }
   const auto& list = session.recordings;
   if (list.size() == 1) out.push_back("One recording only: nothing could be held out.");

@@ -45,6 +45,17 @@ TEST(HardSessions, RecordingsOfTwoCartsGetNoName) {
   EXPECT_TRUE(d.effects.empty());
 }
 
+TEST(HardSessions, TheOneRecordingOfAnotherCartIsPointedAt) {
+  Session session = battery({});
+  IndependentCart heavier;
+  heavier.gain_m_per_s2_V = 1.6;
+  const Session other = battery(heavier);
+  session.recordings[2] = other.recordings[2];
+  const Diagnosis d = diagnose(session, nominal());
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  EXPECT_THAT(d.remarks, Contains(HasSubstr("most in " + session.recordings[2].file)));
+}
+
 TEST(HardSessions, ANominalModelThatIsWildlyOffIsOnlyOff) {
   const Diagnosis d =
       diagnose(battery({}), Model(40).set(P::viscous_coefficient, 0.1).set(P::coulomb_level, 3));
