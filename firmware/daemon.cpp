@@ -145,9 +145,11 @@ Result<int> record_once(const Options& options, const RigFile& rig, Machine& mac
   if (status.notice != wire::Notice::none) {
     std::fprintf(stderr, "cartwrightd: notice at %s\n", notice_sentence(status).c_str());
   }
-  if (status.state != wire::State::faulted) return 0;
-  std::fprintf(stderr, "cartwrightd: fault at %s\n", sentence(status).c_str());
-  return 1;
+  if (status.state == wire::State::faulted)
+    std::fprintf(stderr, "cartwrightd: fault at %s\n", sentence(status).c_str());
+  const bool complete =
+      status.outcome == wire::Outcome::finished || status.outcome == wire::Outcome::converged;
+  return complete ? 0 : 1;
 }
 
 /// What the loop measured of itself, in one line that a script can read.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <modbus/modbus.h>
+#include <netdb.h>
 
 #include <cerrno>
 
@@ -10,6 +11,14 @@ namespace {
 
 /// Long enough for a controller on a busy machine, short enough for a person.
 constexpr std::uint32_t kAnswer_s = 2;
+
+/// libmodbus reports a name that does not resolve as a refused connection.
+bool has_an_address(const std::string& host) {
+  addrinfo* found = nullptr;
+  const int error = getaddrinfo(host.c_str(), nullptr, nullptr, &found);
+  if (found) freeaddrinfo(found);
+  return error == 0;
+}
 
 }  // namespace
 
@@ -24,6 +33,9 @@ void Connection::Close::operator()(_modbus* context) const {
 
 Answer<Connection> Connection::open(const Address& address) {
   const auto unreachable = [&](int error) {
+    if (!has_an_address(address.host))
+      return trouble(Cause::unreachable,
+                     fmt::format("--host {}: no machine of that name is known here", address.host));
     return trouble(
         Cause::unreachable,
         fmt::format("no controller answers at {} ({}); start cartwrightd there, or name another with "

@@ -306,5 +306,30 @@ TEST(Unreachable, EveryDeviceCommandSaysWhereNobodyAnswers) {
   }
 }
 
+TEST(Once, ARelayTestThatDoesNotConvergeIsWrittenAndTold) {
+  const Scratch scratch;
+  scratch.put("rig.toml",
+              "[rig]\nkind = \"simulated\"\nsample_rate_hz = 1000\nencoder_resolution_m = "
+              "2e-5\n[simulation]\nmodel = \"cart.toml\"\n");
+  scratch.put("cart.toml", kTrueModel);
+  // Too little to break friction: nothing swings.
+  const auto relay = [&](const char* volts) {
+    return run(CARTWRIGHTD_PROGRAM,
+               {"--rig", scratch.text("rig.toml"), "--virtual", "--once", "relay", "--set",
+                std::string("relay_h1_V=") + volts, "--set", "relay_h2_V=0", "--out", scratch.text(volts)});
+  };
+  const Finished weak = relay("0.2"), strong = relay("2");
+  EXPECT_EQ(weak.status, 1) << weak.err;
+  EXPECT_THAT(weak.err, HasSubstr("without a converged limit cycle"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "0.2" / "session.toml"));
+  EXPECT_EQ(strong.status, 0) << strong.err;
+}
+
+TEST(Unreachable, ANameThatNoMachineHasIsSaid) {
+  const Finished finished = cartwright({"device", "status", "--host", "no machine"});
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_THAT(finished.err, HasSubstr("--host no machine: no machine of that name"));
+}
+
 }  // namespace
 }  // namespace cartwright::test
