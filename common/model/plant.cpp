@@ -104,6 +104,11 @@ void Plant::hold(double shaped_V, double duration_s) noexcept {
     state_.time_s = end;
     return;
   }
+  if (terms_.linear_two_masses) {
+    hold_two_masses_linear(duration_s);
+    state_.time_s = end;
+    return;
+  }
   const auto steps_over = [this](double span_s) {
     constexpr double kMostSteps = 1e9;
     return static_cast<int>(std::clamp(std::ceil(span_s / step_s_ - 1e-6), 1.0, kMostSteps));

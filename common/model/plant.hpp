@@ -76,6 +76,7 @@ class Plant {
   void hold_linear(double duration_s) noexcept;
   void hold_one_mass(double duration_s) noexcept;
   void hold_two_masses(double duration_s) noexcept;
+  void hold_two_masses_linear(double duration_s) noexcept;
   Drive drive(double duration_s) const noexcept;
   template <typename Moves>
   double release_s(double duration_s, const Moves& moves) const noexcept;

@@ -10,6 +10,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Inner steps resolve the fastest rate w of a model to w h = 0.15: the Runge-Kutta method's local error is
 /// then (w h)^5/120 < 1e-6 of the amplitude.
 constexpr double kStepTimesRate = 0.15;
+/// A Taylor series of eight terms reaches farther (plant_two_masses_linear.cpp); what bounds it is that one
+/// step should not hold two events.
+constexpr double kSeriesStepTimesRate = 0.3;
 /// Keeps the cost of a very stiff model bounded. Rates up to 2.7/20 us are still stable.
 constexpr double kLeastStep_s = 2e-5;
 
@@ -105,11 +108,14 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   rigid_backlash = gap > 0 && joint.rate_per_s == 0;
   varies_in_time = has_lag || has_heating || has_disturbance;
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
-  linear = !(two_masses || varies_in_time || has_level_shape || has_exponential || cogging_waves > 0 ||
-             has_current_limit || has_bristle || spring != 0 || drag != 0);
+  const bool linear_forces = !(varies_in_time || has_level_shape || has_exponential || cogging_waves > 0 ||
+                               has_current_limit || has_bristle || spring != 0 || drag != 0);
+  linear = linear_forces && !two_masses;
+  linear_two_masses = linear_forces && two_masses && !rigid_backlash && viscous_difference == 0;
 
   const double rate = fastest_rate(m, *this);
-  longest_step_s = rate > 0 ? std::max(kStepTimesRate / rate, kLeastStep_s) : kInfinity;
+  const double step_times_rate = linear_two_masses ? kSeriesStepTimesRate : kStepTimesRate;
+  longest_step_s = rate > 0 ? std::max(step_times_rate / rate, kLeastStep_s) : kInfinity;
   if (has_lag) longest_step_s = std::min(longest_step_s, std::max(lag_s, kLeastStep_s));
 }
 

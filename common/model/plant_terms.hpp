@@ -44,7 +44,8 @@ struct PlantTerms {
   bool varies_in_time;  ///< net force at a standstill changes while a command is held
   bool breaks_at_rest;  ///< the force, or its slope, jumps where the velocity changes sign
   bool linear;  ///< one mass with viscous and Coulomb friction and a constant push: solved in closed form
-  double longest_step_s;  ///< resolves the fastest of the model's own motions
+  bool linear_two_masses;  ///< two masses with the same, and a coupling that is not rigid: a series in time
+  double longest_step_s;   ///< resolves the fastest of the model's own motions
 
   /// Dead zone, saturation and gain asymmetry: what the amplifier makes of a command.
   double amplifier(double command_V) const noexcept {

@@ -1,0 +1,217 @@
+// Two masses whose forces are linear between events: the state after a step is a Taylor series, and events
+// are roots along it.
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "common/model/plant_step.hpp"
+
+namespace cartwright {
+namespace {
+
+/// The first term left out is (w h)^9/9! of the motion: 5e-11 at w h = 0.3, 1e-6 at the 0.9 of observers.
+constexpr int kSeriesOrder = 8;
+/// An event is located to this part of the step.
+constexpr double kRootWidth = 1e-9;
+constexpr int kMostRootSteps = 60;
+
+/// A number for the cart and one for the motor: positions, velocities, accelerations, forces.
+struct Both {
+  double cart = 0, motor = 0;
+};
+
+struct Motion {
+  Both y, v;
+};
+
+/// How friction and contact act until the next event.
+struct Mode {
+  Both friction;  // that slides: level times the sign of the motion
+  bool cart_stuck = false, motor_stuck = false;
+  int contact = 0;
+  bool coupled = false;  // the masses act on each other
+};
+
+enum class Event { none, cart_stops, motor_stops, cart_starts, motor_starts, touch, part, press_turns };
+constexpr std::array kEvents{Event::cart_stops, Event::motor_stops, Event::cart_starts, Event::motor_starts,
+                             Event::touch,      Event::part,        Event::press_turns};
+
+class LinearPair {
+ public:
+  LinearPair(const PlantTerms& terms, double drive, double push)
+      : stiffness_(terms.coupling_stiffness),
+        coupling_damping_(terms.coupling_damping),
+        gap_(terms.gap),
+        inverse_mass_{1 / terms.load_share, 1 / (1 - terms.load_share)},
+        outer_{terms.constant + push, drive},
+        damping_{terms.load_damping_share * terms.viscous, (1 - terms.load_damping_share) * terms.viscous},
+        level_{terms.load_friction_share * terms.coulomb, (1 - terms.load_friction_share) * terms.coulomb} {}
+
+  Mode mode(const Motion& at, int contact) const {
+    Mode m;
+    m.contact = contact;
+    m.coupled = gap_ == 0 || (contact != 0 && contact * press(at, contact) > 0);
+    const Both net = forces(at, m);
+    const auto decide = [](double v, double force, double level, double& friction, bool& stuck) {
+      stuck = v == 0 && level > 0 && std::abs(force) <= level;
+      friction = stuck ? 0 : level * sign_of(v != 0 ? v : force);
+    };
+    decide(at.v.cart, net.cart, level_.cart, m.friction.cart, m.cart_stuck);
+    decide(at.v.motor, net.motor, level_.motor, m.friction.motor, m.motor_stuck);
+    return m;
+  }
+
+  /// The motion h later: each derivative follows from the one before it as accelerations do from the state.
+  Motion after(const Motion& at, const Mode& mode, double h) const {
+    const Both net = forces(at, mode);
+    Motion out = at;
+    Both v = at.v;
+    Both a = accelerations({net.cart - mode.friction.cart, net.motor - mode.friction.motor}, mode);
+    double weight = h;
+    for (int n = 1;; ++n) {
+      out.y.cart += weight * v.cart;
+      out.y.motor += weight * v.motor;
+      out.v.cart += weight * a.cart;
+      out.v.motor += weight * a.motor;
+      if (n == kSeriesOrder) return out;
+      const double coupling = mode.coupled ? spring(v, a) : 0;
+      const Both jerk =
+          accelerations({coupling - damping_.cart * a.cart, -coupling - damping_.motor * a.motor}, mode);
+      v = a;
+      a = jerk;
+      weight *= h / (n + 1);
+    }
+  }
+
+  /// Greater than zero once the event has happened; none where it cannot.
+  std::optional<double> past(Event event, const Motion& at, const Mode& mode) const {
+    const bool gap = gap_ > 0;
+    switch (event) {
+      case Event::cart_stops:
+        if (mode.friction.cart == 0) return {};
+        return -mode.friction.cart * at.v.cart;
+      case Event::motor_stops:
+        if (mode.friction.motor == 0) return {};
+        return -mode.friction.motor * at.v.motor;
+      case Event::cart_starts:
+        if (!mode.cart_stuck) return {};
+        return std::abs(forces(at, mode).cart) - level_.cart;
+      case Event::motor_starts:
+        if (!mode.motor_stuck) return {};
+        return std::abs(forces(at, mode).motor) - level_.motor;
+      case Event::touch:
+        if (!gap || mode.contact != 0) return {};
+        return std::abs(at.y.motor - at.y.cart) - 0.5 * gap_;
+      case Event::part:
+        if (!gap || mode.contact == 0) return {};
+        return 0.5 * gap_ - mode.contact * (at.y.motor - at.y.cart);
+      case Event::press_turns:
+        if (!gap || mode.contact == 0) return {};
+        return (mode.coupled ? -1 : 1) * mode.contact * press(at, mode.contact);
+      case Event::none:
+        break;
+    }
+    return {};
+  }
+
+ private:
+  double spring(const Both& stretch, const Both& rate) const {
+    return stiffness_ * (stretch.motor - stretch.cart) + coupling_damping_ * (rate.motor - rate.cart);
+  }
+
+  /// What the coupling does to the cart; with a gap it counts only while it pushes.
+  double press(const Motion& at, int contact) const {
+    return spring(at.y, at.v) - stiffness_ * 0.5 * gap_ * contact;
+  }
+
+  /// Without friction.
+  Both forces(const Motion& at, const Mode& mode) const {
+    const double coupling = mode.coupled ? press(at, mode.contact) : 0;
+    return {outer_.cart - damping_.cart * at.v.cart + coupling,
+            outer_.motor - damping_.motor * at.v.motor - coupling};
+  }
+
+  Both accelerations(const Both& force, const Mode& mode) const {
+    return {mode.cart_stuck ? 0 : force.cart * inverse_mass_.cart,
+            mode.motor_stuck ? 0 : force.motor * inverse_mass_.motor};
+  }
+
+  double stiffness_, coupling_damping_, gap_;
+  Both inverse_mass_, outer_, damping_, level_;
+};
+
+/// How long until just past a root of `past`, which is greater than zero after h: the method of false
+/// position in its Illinois form. What is zero at the start has just happened, and happens again only after
+/// it was below zero.
+template <typename Past>
+double root_after(const Past& past, double at_start, double h) {
+  double low = 0, below = at_start, high = h, above = past(h);
+  for (double inside = 0.5 * h; below >= 0; inside *= 0.5) {
+    if (inside < kRootWidth * h) return std::max(inside, kLeastAdvance_s);
+    const double value = past(inside);
+    (value < 0 ? low : high) = inside;
+    (value < 0 ? below : above) = value;
+  }
+  int last_side = 0;
+  for (int i = 0; i < kMostRootSteps && high - low > kRootWidth * h; ++i) {
+    // A little beyond where the line crosses, so that the root ends up enclosed.
+    const double crossing = low + (high - low) * below / (below - above);
+    const double x = std::min(std::max(crossing, low + 0.25 * kRootWidth * h), high - 0.25 * kRootWidth * h);
+    const double value = past(x);
+    if (value > 0) {
+      high = x, above = value;
+      if (last_side > 0) below *= 0.5;
+      last_side = 1;
+    } else {
+      low = x, below = value;
+      if (last_side < 0) above *= 0.5;
+      last_side = -1;
+    }
+  }
+  return std::max(high, kLeastAdvance_s);
+}
+
+}  // namespace
+
+void Plant::hold_two_masses_linear(double duration_s) noexcept {
+  const LinearPair pair(terms_, terms_.beta * target_V_, extra_push_);
+  Motion now{{state_.position_m, state_.motor_position_m},
+             {state_.velocity_m_per_s, state_.motor_velocity_m_per_s}};
+  double left = duration_s;
+  int events = 0;
+  while (left > kLeastAdvance_s) {
+    const Mode mode = pair.mode(now, state_.contact);
+    double h = std::min(left, step_s_);
+    Motion next = pair.after(now, mode, h);
+    Event first = Event::none;
+    for (const Event event : kEvents) {
+      const auto at_end = pair.past(event, next, mode);
+      if (!at_end || !(*at_end > 0)) continue;
+      if (events >= kEventsPerStep) {  // too many to locate: what crossed zero stands still
+        if (event == Event::cart_stops) next.v.cart = 0;
+        if (event == Event::motor_stops) next.v.motor = 0;
+        continue;
+      }
+      h = root_after([&](double x) { return *pair.past(event, pair.after(now, mode, x), mode); },
+                     *pair.past(event, now, mode), h);
+      next = pair.after(now, mode, h);
+      first = event;
+    }
+    if (first != Event::none) ++events;
+    if (first == Event::cart_stops) next.v.cart = 0;
+    if (first == Event::motor_stops) next.v.motor = 0;
+    if (first == Event::touch) state_.contact = next.y.motor > next.y.cart ? 1 : -1;
+    if (first == Event::touch || first == Event::part)
+      next.y.motor = next.y.cart + 0.5 * terms_.gap * state_.contact;
+    if (first == Event::part) state_.contact = 0;
+    now = next;
+    left -= h;
+  }
+  state_.position_m = now.y.cart;
+  state_.motor_position_m = now.y.motor;
+  state_.velocity_m_per_s = now.v.cart;
+  state_.motor_velocity_m_per_s = now.v.motor;
+  state_.armature_V = target_V_;
+}
+
+}  // namespace cartwright
