@@ -114,10 +114,10 @@ class Explainer {
     std::vector<Promise> chosen = worth_fitting(promises, to_reach, base);
     const auto gap = std::find_if(chosen.begin(), chosen.end(), is_gap);
     if (gap != chosen.end()) {
-      const std::vector<Promise> better =
+      const std::optional<Promise> better =
           scan_gaps(data, base.fit, *gap, facts_, with_kinks(gap->start, fit_options_), options_.threads);
       std::erase_if(chosen, is_gap);
-      chosen.insert(chosen.begin(), better.begin(), better.end());
+      if (better) chosen.insert(chosen.begin(), *better);
     }
     FitOptions sketch = fit_options_;
     sketch.most_rounds = kRoundsOfSketch;
@@ -165,7 +165,8 @@ class Explainer {
       if (tried[i].score() < bar) return;
       const Session data = without_jumps(session_, tried[i].jumps);
       const Fit& from = tried[i].fit;
-      tried[i].fit = fit(data, from.model, from.noise, from.free, with_kinks(from.model, fit_options_));
+      const FitOptions options = with_kinks(from.model, fit_options_);
+      tried[i].fit = fit(data, from.model, from.noise, from.free, options);
     });
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });

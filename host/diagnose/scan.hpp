@@ -24,12 +24,12 @@ std::optional<Promise> scan_further_wave(const Session& session, const Fit& base
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
                                  const FitOptions& options);
 
-/// Better starts for a gap than `from`, whose promise said that one is worth looking for: its size with the
-/// mass in equal parts, then along the way on which readings can hardly tell gap and share apart. Best first,
-/// each with the noise it was found with; none where with no share of the mass it is a count wide. `options`
-/// should take slopes over kinks.
-std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Promise& from,
-                               const SessionFacts& facts, const FitOptions& options, unsigned threads);
+/// A better start for a gap than `from`, whose promise said that one is worth looking for, with the noise it
+/// was found with: its size with the mass in equal parts, then all its numbers, and how the mass is parted,
+/// by evolution. None where with no share of the mass it is a count wide. `options` should take slopes over
+/// kinks.
+std::optional<Promise> scan_gaps(const Session& session, const Fit& base, const Promise& from,
+                                 const SessionFacts& facts, const FitOptions& options, unsigned threads);
 
 /// A sudden lasting step of the reading.
 struct ReadingJump {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/diagnose/evolve_gap.hpp"
 #include "host/diagnose/mass_share.hpp"
 #include "host/diagnose/scan.hpp"
 #include "host/parallel.hpp"
@@ -13,58 +14,14 @@ namespace {
 using P = Parameter;
 
 constexpr double kRatioOfGaps = 1.2;
-constexpr double kLittleData_s = 12, kMostData_s = 30;
-constexpr double kFastestReversals_per_s = 12;
+constexpr double kLittleData_s = 12;
 /// A fit that lacks a gap calls its impacts disturbance; with that much of it no gap would show.
 constexpr double kMostDisturbance_per_s2 = 3e4;
-constexpr double kFinerDisturbance = 0.33;  // once the size is found
-constexpr int kIterationsOfSketch = 4, kIterationsOfSize = 8, kIterationsOfShare = 4;
+constexpr double kFinestDisturbance = 0.5, kSlowCorrelation_s = 0.003;  // at the end
+constexpr double kFinerDisturbance = 0.33;                              // once the size is found
+constexpr int kIterationsOfSketch = 4, kIterationsOfSize = 8;
 constexpr std::size_t kLinesKept = 2;  // once sketched
-constexpr std::size_t kStartsKept = 2;
-constexpr std::array kShares{0.3, 0.4, 0.5, 0.6, 0.7};
-
-/// Reversals of the velocity over 10 ms, per second.
-double reversals_per_s(const Recording& r, const Rig& rig) {
-  const auto span = static_cast<std::size_t>(std::max(1.0, 0.01 * rig.sample_rate_hz));
-  const double least_m = 3 * rig.encoder_resolution_m;
-  int reversals = 0;
-  double last = 0;
-  for (std::size_t k = span; k < r.size(); k += span) {
-    const double moved = r.y_m[k] - r.y_m[k - span];
-    if (std::abs(moved) <= least_m) continue;
-    reversals += last * moved < 0;
-    last = moved;
-  }
-  return reversals / std::max(r.t_s.back() - r.t_s.front(), rig.period_s());
-}
-
-/// A share of the session that shows what a gap does: no repeats, most reversals first, but not so many that
-/// one impact runs into the next.
-Session some_of(const Session& session, double most_s) {
-  struct Choice {
-    std::size_t recording;
-    double reversals_per_s;
-  };
-  std::vector<Choice> order;
-  for (std::size_t n = 0; n < session.recordings.size(); ++n) {
-    if (!session.recordings[n].repeat_of.empty()) continue;
-    order.push_back({n, reversals_per_s(session.recordings[n], session.rig)});
-  }
-  const auto crowded = [](const Choice& c) { return c.reversals_per_s > kFastestReversals_per_s; };
-  std::stable_sort(order.begin(), order.end(), [&](const Choice& a, const Choice& b) {
-    return crowded(a) != crowded(b) ? crowded(b) : a.reversals_per_s > b.reversals_per_s;
-  });
-  Session some;
-  some.rig = session.rig;
-  double length_s = 0;
-  for (const Choice& choice : order) {
-    const Recording& r = session.recordings[choice.recording];
-    some.recordings.push_back(r);
-    length_s += r.t_s.back() - r.t_s.front();
-    if (length_s >= most_s) break;
-  }
-  return some;
-}
+constexpr double kMostShare = 0.7;
 
 /// Starts with the mass in equal parts: gaps along a line, one line for each way friction and damping may be
 /// parted.
@@ -95,8 +52,8 @@ void sort_best_first(std::vector<Fit>& fits) {
 
 }  // namespace
 
-std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Promise& from,
-                               const SessionFacts& facts, const FitOptions& options, unsigned threads) {
+std::optional<Promise> scan_gaps(const Session& session, const Fit& base, const Promise& from,
+                                 const SessionFacts& facts, const FitOptions& options, unsigned threads) {
   std::vector<FreeParameter> free = from.free;
   std::erase_if(free, [](const FreeParameter& p) { return p.id == P::backlash_load_share; });
   FitOptions quick = options;
@@ -116,7 +73,7 @@ std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Pr
       std::min(noise.disturbance_per_reading_per_s2, kMostDisturbance_per_s2);
 
   // The size, with the mass in equal parts.
-  const Session little = some_of(session, kLittleData_s);
+  const Session little = shows_gap(session, kLittleData_s);
   const std::vector<std::vector<Model>> all = lines(from.start, facts);
   std::vector<Model> starts(all.size());
   parallel_for(all.size(), threads, [&](std::size_t i) {
@@ -132,23 +89,18 @@ std::vector<Promise> scan_gaps(const Session& session, const Fit& base, const Pr
   for (std::size_t i = 0; i < std::min(kLinesKept, sketched.size()); ++i) starts.push_back(sketched[i].model);
   quick.most_iterations = kIterationsOfSize;
   const Fit best = refined(little, starts, noise).front();
-  const double most_share = kShares.back();
-  if (with_share(best.model, most_share)[P::backlash_gap] < session.rig.encoder_resolution_m) return {};
+  if (with_share(best.model, kMostShare)[P::backlash_gap] < session.rig.encoder_resolution_m)
+    return std::nullopt;
 
-  // How the mass is parted: the rest stays nearly the same along the way.
-  const Session more = some_of(session, kMostData_s);
-  starts.clear();
-  for (const double share : kShares) starts.push_back(with_share(best.model, share));
-  quick.most_iterations = kIterationsOfShare;
+  // How the mass is parted, and all else about the gap: roughly, then with a disturbance that is smaller and
+  // slower, so that what is sharp in the errors is the gap's.
   noise.disturbance_per_reading_per_s2 *= kFinerDisturbance;
-  std::vector<Promise> found;
-  for (const Fit& one : refined(more, starts, noise)) {
-    if (found.size() == kStartsKept) break;
-    Promise promise = from;
-    promise.start = one.model;
-    promise.noise = one.noise;
-    found.push_back(std::move(promise));
-  }
+  Promise found = from;
+  found.start = evolve_gap(session, best.model, noise, from.free, options, threads);
+  noise.disturbance_per_reading_per_s2 *= kFinestDisturbance;
+  noise.correlation_time_s = std::max(noise.correlation_time_s, kSlowCorrelation_s);
+  found.start = evolve_gap(session, found.start, noise, from.free, options, threads);
+  found.noise = noise;
   return found;
 }
 
