@@ -30,15 +30,15 @@ struct PlantOptions {
 ///
 ///     d2y/dt2 = beta u - sum(opposing terms) + sum(pushes)            [m/s^2]
 ///
-/// Viscous and Coulomb friction with constant pushes are solved in closed form; everything else is integrated
-/// by the classical fourth-order Runge-Kutta method between events. Friction is discontinuous at v = 0 and
-/// nothing is smoothed: the zero crossing of the velocity is located inside the step, the velocity set to
-/// exactly zero there, and the mass then stays still for as long as the net force is within the breakaway
-/// level. Holds for any step size. A presliding bristle is elastic until it carries the breakaway level, then
-/// slides, and is elastic again from the next standstill. With backlash or a flexible coupling there are two
-/// masses, each with its own friction and its own sticking; backlash contact is rigid and its impacts are
-/// inelastic, unless its teeth give. Constant push, cogging, spring and disturbance act on the cart, the
-/// drive on the motor.
+/// Viscous and Coulomb friction with constant pushes are solved in closed form, two masses with them by a
+/// Taylor series; everything else is integrated by the classical fourth-order Runge-Kutta method. All of it
+/// between events. Friction is discontinuous at v = 0 and nothing is smoothed: the zero crossing of the
+/// velocity is located inside the step, the velocity set to exactly zero there, and the mass then stays still
+/// for as long as the net force is within the breakaway level. Holds for any step size. A presliding bristle
+/// is elastic until it carries the breakaway level, then slides, and is elastic again from the next
+/// standstill. With backlash or a flexible coupling there are two masses, each with its own friction and its
+/// own sticking; backlash contact is rigid and its impacts are inelastic, unless its teeth give. Constant
+/// push, cogging, spring and disturbance act on the cart, the drive on the motor.
 ///
 /// Order of the input chain: dead zone, saturation, gain asymmetry, delay, lag, current limit.
 /// No allocation, no exception; copying copies the whole state.
