@@ -187,17 +187,13 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
     for (const Event event : kEvents) {
       const auto at_end = pair.past(event, next, mode);
       if (!at_end || !(*at_end > 0)) continue;
-      if (events >= kEventsPerStep) {  // too many to locate: what crossed zero stands still
-        if (event == Event::cart_stops) next.v.cart = 0;
-        if (event == Event::motor_stops) next.v.motor = 0;
-        continue;
-      }
+      first = event;
+      if (events >= kEventsPerStep) continue;  // too many to locate: it happens at the end
       h = root_after([&](double x) { return *pair.past(event, pair.after(now, mode, x), mode); },
                      *pair.past(event, now, mode), h);
       next = pair.after(now, mode, h);
-      first = event;
     }
-    if (first != Event::none) ++events;
+    events = first == Event::none ? 0 : events + 1;
     if (first == Event::cart_stops) next.v.cart = 0;
     if (first == Event::motor_stops) next.v.motor = 0;
     if (first == Event::touch) state_.contact = next.y.motor > next.y.cart ? 1 : -1;

@@ -168,5 +168,25 @@ TEST(FlexibleCoupling, WithAGapIsFreeInsideIt) {
   EXPECT_NEAR(0.5 * (plant.state().velocity_m_per_s + plant.state().motor_velocity_m_per_s), 0.05, 1e-12);
 }
 
+TEST(Backlash, TeethThatGiveMeetAsOftenAsTheyMustInOneLongHold) {
+  // A motor that hits the cart: the teeth bounce some forty times, and in the end the cart is pushed half a
+  // gap ahead.
+  const Model model = Model(1.0)
+                          .set(P::viscous_coefficient, 1)
+                          .set(P::coulomb_level, 0.2)
+                          .set(P::backlash_gap, 1e-3)
+                          .set(P::backlash_contact_resonance, 200)
+                          .set(P::backlash_contact_damping_ratio, 0.02);
+  PlantState hit;
+  hit.motor_velocity_m_per_s = 0.5;
+  Plant once(model), often(model);
+  once.reset(hit);
+  often.reset(hit);
+  once.advance(2, 3);
+  for (int tick = 0; tick < 3000; ++tick) often.advance(2, 1e-3);
+  EXPECT_NEAR(once.state().position_m, often.state().position_m, 1e-6);
+  EXPECT_NEAR(once.state().motor_position_m - once.state().position_m, 0.5e-3, 1e-5);
+}
+
 }  // namespace
 }  // namespace cartwright
