@@ -98,14 +98,9 @@ void Plant::hold(double shaped_V, double duration_s) noexcept {
   if (!(duration_s > 0)) return;
   target_V_ = shaped_V;
   const double end = state_.time_s + duration_s;
-  if (terms_.linear) {
-    hold_linear(duration_s);
+  if (terms_.linear || terms_.linear_two_masses) {
+    terms_.linear ? hold_linear(duration_s) : hold_two_masses_linear(duration_s);
     state_.armature_V = shaped_V;
-    state_.time_s = end;
-    return;
-  }
-  if (terms_.linear_two_masses) {
-    hold_two_masses_linear(duration_s);
     state_.time_s = end;
     return;
   }

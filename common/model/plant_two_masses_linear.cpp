@@ -207,7 +207,6 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
   state_.motor_position_m = now.y.motor;
   state_.velocity_m_per_s = now.v.cart;
   state_.motor_velocity_m_per_s = now.v.motor;
-  state_.armature_V = target_V_;
 }
 
 }  // namespace cartwright

@@ -36,11 +36,14 @@ SimpleCart simple_cart(const Model& m, const Trials& trials) {
 /// Volts that only just move the cart.
 double breakaway_V(const Model& m) {
   double level = 0;
-  for (const Parameter p : {Parameter::coulomb_level, Parameter::stribeck_excess, Parameter::spot_peak,
-                            Parameter::cogging_amplitude, Parameter::cogging_second_amplitude,
-                            Parameter::cogging_third_amplitude, Parameter::constant_acceleration}) {
+  const auto add = [&](Parameter p) {
     if (m.has(*info(p).term)) level += std::abs(m[p]);
+  };
+  for (const Parameter p : {Parameter::coulomb_level, Parameter::stribeck_excess, Parameter::spot_peak,
+                            Parameter::constant_acceleration}) {
+    add(p);
   }
+  for (const PeriodicTerm& wave : kCoggingWaves) add(wave.amplitude);
   return level / m[Parameter::voltage_gain] +
          (m.has(Term::input_dead_zone) ? m[Parameter::dead_zone_half_width] : 0);
 }

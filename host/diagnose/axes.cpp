@@ -32,8 +32,8 @@ std::vector<double> even_edges(const Columns& values, std::size_t bins) {
 }
 
 AxisBins binned(std::string axis, std::string parity, const Columns& values, std::vector<double> edges,
-                const std::vector<std::vector<signed char>>& direction) {
-  AxisBins bins{std::move(axis), std::move(parity), std::move(edges), {}, direction};
+                const std::vector<std::vector<signed char>>& direction, std::vector<std::string> names = {}) {
+  AxisBins bins{std::move(axis), std::move(parity), std::move(edges), {}, direction, std::move(names)};
   for (const auto& column : values) {
     std::vector<int> rows(column.size(), -1);
     for (std::size_t k = 0; k < column.size(); ++k) {
@@ -92,9 +92,8 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
   };
   add("time_s", "even", time);
   add("time_s", "odd", time);
-  axes.push_back(binned("recording", "even", which, recordings, even));
-  axes.push_back(binned("recording", "odd", which, recordings, odd));
-  for (auto both = axes.end() - 2; both != axes.end(); ++both) both->names = files;
+  axes.push_back(binned("recording", "even", which, recordings, even, files));
+  axes.push_back(binned("recording", "odd", which, recordings, odd, files));
   add("position_m", "even", position);
   add("position_m", "odd", position);
   add("velocity_m_per_s", "even", velocity);

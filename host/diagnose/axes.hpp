@@ -13,7 +13,7 @@ struct AxisBins {
   std::vector<double> edges;                        ///< bins + 1 of them
   std::vector<std::vector<int>> bin;                ///< per recording and row; -1: in none
   std::vector<std::vector<signed char>> direction;  ///< per recording and row: factor of the push
-  std::vector<std::string> names{};                 ///< of the bins, where they are no numbers
+  std::vector<std::string> names;                   ///< of the bins, where they are no numbers
 };
 
 /// The axes of a session as seen by its observer: time, recording, position, velocity, acceleration, voltage,

@@ -6,10 +6,6 @@
 
 namespace cartwright {
 
-/// A share of the session that shows what a gap does: no repeats, most reversals first, but not so many that
-/// one impact runs into the next.
-Session shows_gap(const Session& session, double most_s);
-
 /// All free numbers of a model with a gap, looked for by evolution from where they are, the noise held: teeth
 /// that meet and part make so many local bests, so close to each other, that slopes mislead. On some 20 s of
 /// the session; `free` holds the parameters, with their bounds.

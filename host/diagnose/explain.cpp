@@ -165,8 +165,7 @@ class Explainer {
       if (tried[i].score() < bar) return;
       const Session data = without_jumps(session_, tried[i].jumps);
       const Fit& from = tried[i].fit;
-      const FitOptions options = with_kinks(from.model, fit_options_);
-      tried[i].fit = fit(data, from.model, from.noise, from.free, options);
+      tried[i].fit = fit(data, from.model, from.noise, from.free, with_kinks(from.model, fit_options_));
     });
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });

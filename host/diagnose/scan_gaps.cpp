@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "host/diagnose/evolve_gap.hpp"
 #include "host/diagnose/mass_share.hpp"
 #include "host/diagnose/scan.hpp"
+#include "host/diagnose/some_recordings.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
@@ -17,11 +17,11 @@ constexpr double kRatioOfGaps = 1.2;
 constexpr double kLittleData_s = 12;
 /// A fit that lacks a gap calls its impacts disturbance; with that much of it no gap would show.
 constexpr double kMostDisturbance_per_s2 = 3e4;
-constexpr double kFinestDisturbance = 0.5, kSlowCorrelation_s = 0.003;  // at the end
-constexpr double kFinerDisturbance = 0.33;                              // once the size is found
+/// Once the size is found less of it is left, and at the end still less, and slower.
+constexpr double kFinerDisturbance = 0.33, kFinestDisturbance = 0.5, kSlowCorrelation_s = 0.003;
 constexpr int kIterationsOfSketch = 4, kIterationsOfSize = 8;
 constexpr std::size_t kLinesKept = 2;  // once sketched
-constexpr double kMostShare = 0.7;
+constexpr double kMostShare = 0.7;     // of the mass, on the cart's side
 
 /// Starts with the mass in equal parts: gaps along a line, one line for each way friction and damping may be
 /// parted.
@@ -73,7 +73,7 @@ std::optional<Promise> scan_gaps(const Session& session, const Fit& base, const 
       std::min(noise.disturbance_per_reading_per_s2, kMostDisturbance_per_s2);
 
   // The size, with the mass in equal parts.
-  const Session little = shows_gap(session, kLittleData_s);
+  const Session little = most_reversals(session, kLittleData_s);
   const std::vector<std::vector<Model>> all = lines(from.start, facts);
   std::vector<Model> starts(all.size());
   parallel_for(all.size(), threads, [&](std::size_t i) {

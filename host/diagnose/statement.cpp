@@ -108,9 +108,8 @@ std::string statement_of_periods(const std::vector<double>& periods_m) {
   std::vector<std::string> words;
   for (const double period_m : periods_m) words.push_back(fmt::format("{:.4g} mm", 1e3 * period_m));
   return fmt::format(
-      "A push that repeats every {} is left without a name; cogging would, or a screw or wheel that runs out "
-      "of "
-      "true.",
+      "A push that repeats every {} is left without a name; "
+      "cogging would, or a screw or wheel that runs out of true.",
       fmt::join(words, ", every "));
 }
 
