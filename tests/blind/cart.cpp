@@ -34,7 +34,8 @@ Cart::Cart(const CartPhysics& physics, int recording, std::uint64_t seed)
 double Cart::read() {
   const double eccentric =
       p_.eccentricity_m * std::sin(2 * M_PI * y_m_ / p_.eccentricity_period_m + p_.eccentricity_phase_rad);
-  const double seen = y_m_ + eccentric + lost_m_ + p_.reading_noise_m * normal_(random_);
+  const double scale = 1 + p_.scale_slope_per_m * y_m_;
+  const double seen = scale * y_m_ + eccentric + lost_m_ + p_.reading_noise_m * normal_(random_);
   return p_.count_m * std::round(seen / p_.count_m);
 }
 
@@ -53,19 +54,47 @@ void Cart::hold(double u_V, double t_s, double span_s) {
     while (arrived_ < under_way_.size() && under_way_[arrived_].t_s <= t + 0.5 * h)
       arrived_V_ = under_way_[arrived_++].u_V;
     const double voltage = amplifier(arrived_V_, h);
-    double gain = p_.gain_m_per_s2_V * (1 + 0.5 * p_.amplifier_difference * sign(arrived_V_));
-    gain *= 1 - p_.heating_loss * (1 - std::exp(-t / p_.heating_time_s));
-    if (t < loose_until_s_) gain *= 1 - p_.contact_loss;
+    const double drive = gain_at(t, arrived_V_) * voltage + carried(h);
     if (two_masses) {
-      step_two_masses(t, gain * voltage, h);
+      step_two_masses(t, drive, h);
     } else {
-      step_one_mass(t, gain * voltage, h);
+      step_one_mass(t, drive, h);
     }
     if (p_.lost_rate_per_s > 0) lose_counts(h);
   }
 }
 
+double Cart::gain_at(double t_s, double u_V) const {
+  double gain = p_.gain_m_per_s2_V * (1 + 0.5 * p_.amplifier_difference * sign(u_V));
+  gain *= 1 - p_.heating_loss * (1 - std::exp(-t_s / p_.heating_time_s));
+  gain *= 1 - p_.compression * u_V * u_V / 144;
+  gain *= 1 + p_.gain_slope_per_m * y_m_ + p_.ripple * std::sin(2 * M_PI * y_m_ / p_.ripple_period_m);
+  if (t_s < loose_until_s_) gain *= 1 - p_.contact_loss;
+  return gain;
+}
+
+/// The push of what the cart takes along: a load that swings from it, a chain that its cable lies in.
+double Cart::carried(double h_s) {
+  double push = 0;
+  if (p_.swing_ratio > 0) {
+    const double w = 2 * M_PI * p_.swing_hz;
+    const double away = swing_m_ - y_m_, rate = swing_m_per_s_ - v_m_per_s_;
+    const double on_load = -w * w * away - 2 * 0.02 * w * rate;
+    swing_m_per_s_ += h_s * on_load;
+    swing_m_ += h_s * swing_m_per_s_;
+    push -= p_.swing_ratio * on_load;
+  }
+  if (p_.chain_m_per_s2 > 0) {
+    chain_m_ = std::clamp(chain_m_ + h_s * v_m_per_s_, -p_.chain_reach_m, p_.chain_reach_m);
+    push -= p_.chain_m_per_s2 * chain_m_ / p_.chain_reach_m;
+  }
+  return push;
+}
+
 double Cart::amplifier(double u_V, double h_s) {
+  if (p_.drive_step_V > 0) u_V = p_.drive_step_V * std::round(u_V / p_.drive_step_V);
+  if (p_.drive_play_V > 0)
+    u_V = played_V_ = std::clamp(played_V_, u_V - p_.drive_play_V, u_V + p_.drive_play_V);
   double u = std::abs(u_V) < p_.dead_zone_V ? 0 : u_V - p_.dead_zone_V * sign(u_V);
   u = std::clamp(u, -p_.saturation_V, p_.saturation_V);
   if (std::isfinite(p_.slew_V_per_s)) {
@@ -81,7 +110,8 @@ double Cart::amplifier(double u_V, double h_s) {
 double Cart::level(double t_s, double y_m, double v_m_per_s, double drive) const {
   const double slow = v_m_per_s / p_.stribeck_speed_m_per_s;
   const double away = (y_m - p_.spot_centre_m) / p_.spot_width_m;
-  return p_.coulomb_m_per_s2 + p_.stribeck_excess_m_per_s2 * std::exp(-slow * slow) +
+  return p_.coulomb_m_per_s2 * (1 - p_.drift * recording_) +
+         p_.stribeck_excess_m_per_s2 * std::exp(-slow * slow) +
          p_.spot_peak_m_per_s2 * std::exp(-0.5 * away * away) +
          p_.warm_up_m_per_s2 * std::exp(-t_s / p_.warm_up_time_s) + p_.drive_friction * std::abs(drive);
 }

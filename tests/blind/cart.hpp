@@ -47,6 +47,15 @@ struct CartPhysics {
   double slew_V_per_s = kNone;                      // amplifier slew
   double contact_rate_per_s = 0, contact_loss = 0;  // a loose plug: for 20 ms the gain is less
   double bumper_at_m = kNone, bumper_per_s2 = 0;    // a soft stop on one side
+  double drive_step_V = 0;                          // a coarse converter before the amplifier
+  double drive_play_V = 0;                          // an amplifier with hysteresis: half its width
+  double compression = 0;                           // part of the gain lost at 12 V, as its square
+  double gain_slope_per_m = 0;                      // a gain that changes along the rail
+  double ripple = 0, ripple_period_m = 1;           // a gain that changes with the angle of the motor
+  double swing_ratio = 0, swing_hz = 1;             // mass of a load that hangs from the cart and swings
+  double chain_m_per_s2 = 0, chain_reach_m = 1;     // a cable chain: springs back, then drags along
+  double scale_slope_per_m = 0;                     // an encoder whose scale changes along the rail
+  double drift = 0;                                 // part of the friction lost from recording to recording
 
   // The world: a disturbance acceleration, first-order coloured, and the reading.
   double disturbance_m_per_s2 = 0.02, disturbance_time_s = 0.005;
@@ -69,6 +78,8 @@ class Cart {
   double level(double t_s, double y_m, double v_m_per_s, double drive) const;
   double push(double t_s) const;
   double damping(double v_m_per_s) const;
+  double gain_at(double t_s, double u_V) const;
+  double carried(double h_s);
   void step_one_mass(double t_s, double drive, double h_s);
   void step_two_masses(double t_s, double drive, double h_s);
   void lose_counts(double h_s);
@@ -80,6 +91,7 @@ class Cart {
   std::uniform_real_distribution<double> uniform_;
   double y_m_ = 0, v_m_per_s_ = 0, motor_y_m_ = 0, motor_v_m_per_s_ = 0;
   double bristle_m_ = 0, lagged_V_ = 0, slewed_V_ = 0, disturbance_ = 0, lost_m_ = 0;
+  double played_V_ = 0, chain_m_ = 0, swing_m_ = 0, swing_m_per_s_ = 0;
   double loose_until_s_ = -1;
   // Commands still under way through the delay: when each one arrives.
   struct Arrival {

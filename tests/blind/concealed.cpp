@@ -176,6 +176,37 @@ const std::vector<Hidden>& outside() {
   return list;
 }
 
+const std::vector<Hidden>& foreign() {
+  static const std::vector<Hidden> list{
+      {"x_coarse_drive", [](Draw& d, CartPhysics& p, Truth&) { p.drive_step_V = d.of(0.2, 0.5, 1.2, 2.5); }},
+      {"x_drive_play", [](Draw& d, CartPhysics& p, Truth&) { p.drive_play_V = d.around(0.25); }},
+      {"x_compression", [](Draw& d, CartPhysics& p, Truth&) { p.compression = d.of(0.04, 0.1, 0.25, 0.5); }},
+      {"x_gain_along_rail",
+       [](Draw& d, CartPhysics& p, Truth&) { p.gain_slope_per_m = d.sign() * d.around(1); }},
+      {"x_torque_ripple",
+       [](Draw& d, CartPhysics& p, Truth&) {
+         p.ripple = d.around(0.08);
+         p.ripple_period_m = d.between(0.012, 0.03);
+       }},
+      {"x_swinging_load",
+       [](Draw& d, CartPhysics& p, Truth&) {
+         p.swing_ratio = d.around(0.08);
+         p.swing_hz = d.between(1, 3);
+       }},
+      {"x_cable_chain",
+       [](Draw& d, CartPhysics& p, Truth&) {
+         p.chain_m_per_s2 = d.around(0.25);
+         p.chain_reach_m = d.between(0.005, 0.02);
+       }},
+      {"x_scale_along_rail",
+       [](Draw& d, CartPhysics& p, Truth&) { p.scale_slope_per_m = d.sign() * d.around(0.1); }},
+      {"x_friction_drift", [](Draw& d, CartPhysics& p, Truth&) {
+         if (p.coulomb_m_per_s2 == 0) p.coulomb_m_per_s2 = d.between(0.25, 0.6);
+         p.drift = d.of(0.01, 0.02, 0.05, 0.09);
+       }}};
+  return list;
+}
+
 std::vector<std::string> names_of(const std::vector<Hidden>& list) {
   std::vector<std::string> names;
   for (const Hidden& one : list) names.emplace_back(one.name);
@@ -199,6 +230,11 @@ const std::vector<std::string>& effects_outside() {
   return names;
 }
 
+const std::vector<std::string>& effects_foreign() {
+  static const std::vector<std::string> names = names_of(foreign());
+  return names;
+}
+
 Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed,
                const Instruments& instruments) {
   Draw d(seed, size);
@@ -216,7 +252,7 @@ Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t
     const bool needs_friction = effect == "presliding_friction" || effect == "backlash";
     if (needs_friction && p.coulomb_m_per_s2 == 0) p.coulomb_m_per_s2 = d.between(0.25, 0.6);
     if (effect == "coulomb_friction") c.nominal_has_coulomb = false;
-    for (const auto* list : {&vocabulary(), &outside()}) {
+    for (const auto* list : {&vocabulary(), &outside(), &foreign()}) {
       for (const Hidden& one : *list) {
         if (one.name != effect) continue;
         one.conceal(d, p, c.truth);

@@ -30,9 +30,11 @@ struct Concealed {
   bool nominal_has_coulomb = true;
 };
 
-/// Effects of the vocabulary that can be hidden, and effects that it has no name for.
+/// Effects of the vocabulary that can be hidden, and effects that it has no name for: those the rules were
+/// made with, and those thought of once the rules stood.
 const std::vector<std::string>& effects_of_the_vocabulary();
 const std::vector<std::string>& effects_outside();
+const std::vector<std::string>& effects_foreign();
 
 /// A cart hiding `effects`, each of `size`; `parameter_change` and none at all are possible too.
 Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t seed,
