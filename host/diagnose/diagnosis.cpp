@@ -7,9 +7,11 @@
 #include <numeric>
 
 #include "host/diagnose/estimate.hpp"
+#include "host/diagnose/further_push.hpp"
 #include "host/diagnose/held_out.hpp"
 #include "host/diagnose/lost_counts.hpp"
 #include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/predicts_no_better.hpp"
 #include "host/diagnose/remarks.hpp"
 #include "host/diagnose/statement.hpp"
 #include "host/diagnose/surrogate.hpp"
@@ -117,7 +119,7 @@ class Diagnostician {
 
     report("replaying windows", 0.88);
     measure(used, held);
-    judge();
+    judge(repaired, held.empty() ? used : only(session_, held));
     name_effects(used);
     name_parameters();
     propose(used);
@@ -135,6 +137,7 @@ class Diagnostician {
   /// A push that happened only in the recording kept out would never be found without it.
   bool shows_a_push(const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
+    if (best.has(Term::external_disturbance)) return false;
     const Session out = only(session_, held);
     FitOptions as_it_is = fit_options_;
     as_it_is.move_noise = false;
@@ -143,16 +146,20 @@ class Diagnostician {
     return !promises.empty() && promises.front().log_likelihood_gain > 2 * kLeastGain;
   }
 
-  void judge() {
+  void judge(const Session& repaired, const Session& unseen) {
     const Search& found = result_.search;
     const double left = kGainOverPromise * structure_left(result_.after);
     const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
     const double of_likelihood = left > 0 ? left / (left + gained) : 0;
     const double of_windows = left > 0 ? window_share_left() : 0;
-    const bool idle = predicts_less_than_uniform_motion();
-    const bool refused = idle || of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood;
-    if (idle || (left > 0 && (refused || of_likelihood > 0.05)))
-      describe_left_over(idle ? 1 : std::max(of_windows, of_likelihood), refused);
+    std::string why_refused = predicts_no_better(result_, nominal_, unseen, options_.threads);
+    if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
+    const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
+    if (why_refused.empty() && (of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood))
+      why_refused =
+          fmt::format("{:.0f} % of what the model misses is still there, far above chance", 100 * share_left);
+    const bool refused = !why_refused.empty();
+    if (refused || of_likelihood > 0.05) describe_left_over(share_left, why_refused);
     if (refused) {
       result_.verdict = Verdict::unexplained;
       result_.model = found.refitted.fit.model;
@@ -175,12 +182,6 @@ class Diagnostician {
     return shows ? std::max(of_used, excess_left(result_.held_out, held_floor_m_)) : of_used;
   }
 
-  /// Where the forces of a model predict windows worse than a cart without any, which keeps its speed, what
-  /// was added to them explains nothing, however well it fits.
-  bool predicts_less_than_uniform_motion() const {
-    return !result_.search.contests.empty() && result_.used.with_effects > result_.uniform_motion_m;
-  }
-
   bool values_changed() const {
     const Fit& fit = result_.search.refitted.fit;
     return std::any_of(fit.free.begin(), fit.free.end(), [&](const FreeParameter& p) {
@@ -190,11 +191,11 @@ class Diagnostician {
     });
   }
 
-  void describe_left_over(double share_left, bool refused) {
+  void describe_left_over(double share_left, const std::string& why_refused) {
     Unexplained left;
     left.share_left = share_left;
     left.where = where_of(result_.after);
-    const Profile& over_way = (refused ? result_.before : result_.after).over_way;
+    const Profile& over_way = (!why_refused.empty() ? result_.before : result_.after).over_way;
     for (const std::size_t i : over_way.lines(kPeriodsTold)) left.periods_m.push_back(1 / over_way.at[i]);
     const auto carrier =
         std::max_element(result_.after.axes.begin(), result_.after.axes.end(),
@@ -206,16 +207,9 @@ class Diagnostician {
     } else if (!found.promises.empty()) {
       left.closest = found.promises.front().term;
     }
-    if (left.closest && predicts_less_than_uniform_motion()) {
-      left.why_refused = fmt::format(
-          "{} comes closest, but with it windows are predicted worse ({:.3g} um) than by a cart that just "
-          "keeps its speed ({:.3g} um)",
-          info(*left.closest).name, 1e6 * result_.used.with_effects, 1e6 * result_.uniform_motion_m);
-    } else if (left.closest && refused) {
-      left.why_refused = fmt::format(
-          "{} comes closest, but with it {:.0f} % of what the model misses is still there, far above chance",
-          info(*left.closest).name, 100 * share_left);
-    }
+    if (left.closest && !why_refused.empty())
+      left.why_refused =
+          fmt::format("{} comes closest, but with it {}", info(*left.closest).name, why_refused);
     result_.unexplained = std::move(left);
   }
 

@@ -20,7 +20,8 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
 std::optional<Promise> scan_further_wave(const Session& session, const Fit& base, const SessionFacts& facts,
                                          const FitOptions& options, unsigned threads);
 
-/// A push in one recording: matched filter over start and duration.
+/// A push in one recording: matched filter over start and duration. Where `base` has one, a further one in
+/// its place.
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
                                  const FitOptions& options);
 

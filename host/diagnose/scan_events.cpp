@@ -40,7 +40,6 @@ std::vector<double> response(const ObserverGains& gains, const Rig& rig, double 
 
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
                                  const FitOptions& options) {
-  if (base.model.has(Term::external_disturbance)) return {};
   const Rig& rig = session.rig;
   const ObserverGains gains = observer_gains(base.noise, rig.period_s(), options.damping_per_s);
   const double variance = base.error_rms_m * base.error_rms_m;

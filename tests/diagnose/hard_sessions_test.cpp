@@ -110,6 +110,33 @@ TEST(HardSessions, ForcesThatPredictLessThanAnUnchangedSpeedGetNoName) {
   EXPECT_THAT(d.unexplained->why_refused, HasSubstr("keeps its speed"));
 }
 
+/// A lag and a limit together come near it, the noise takes in the rest.
+TEST(HardSessions, AnAmplifierThatSlewsGetsNoName) {
+  IndependentCart cart;
+  double slewed_V = 0;
+  cart.amplifier = [&slewed_V](double u) {
+    constexpr double kSlew_V = 0.2;  // in a tick
+    return slewed_V += std::clamp(u - slewed_V, -kSlew_V, kSlew_V);
+  };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  EXPECT_TRUE(d.effects.empty());
+}
+
+TEST(HardSessions, APlugThatIsLooseGetsNoName) {
+  IndependentCart cart;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform;
+  int loose_ticks = 0;
+  cart.amplifier = [&](double u) {
+    if (uniform(random) < 1.5e-3) loose_ticks = 20;
+    return loose_ticks-- > 0 ? 0 : u;
+  };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  EXPECT_TRUE(d.effects.empty());
+}
+
 TEST(HardSessions, OneRecordingIsEnoughToSayThatNothingIsMissingAndSaysWhatItCannot) {
   Session session = battery({});
   session.recordings.resize(1);
