@@ -119,7 +119,7 @@ class Diagnostician {
 
     report("replaying windows", 0.88);
     measure(used, held);
-    judge(repaired, held.empty() ? used : only(session_, held));
+    judge(repaired, only(session_, held));
     name_effects(used);
     name_parameters();
     propose(used);
@@ -152,7 +152,7 @@ class Diagnostician {
     const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
     const double of_likelihood = left > 0 ? left / (left + gained) : 0;
     const double of_windows = left > 0 ? window_share_left() : 0;
-    std::string why_refused = predicts_no_better(result_, nominal_, unseen, options_.threads);
+    std::string why_refused = predicts_no_better(result_, nominal_, repaired, unseen, options_.threads);
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
     const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
     if (why_refused.empty() && (of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood))

@@ -25,7 +25,7 @@ std::string further_push(const Session& session, const Search& search, FitOption
   const std::vector<Promise> left = scan_pushes(session, fit, facts_of(session), options);
   if (left.empty() || left.front().log_likelihood_gain < kAsMuch * named->gain) return "";
   const Model& next = left.front().start;
-  return fmt::format("pushes like it are left, the next in {} at t = {:.2f} s", next.disturbance_recording,
+  return fmt::format("strong pushes are left, the next in {} at t = {:.2f} s", next.disturbance_recording,
                      next[Parameter::disturbance_start]);
 }
 

@@ -34,17 +34,19 @@ std::string worse(std::string_view which, double with_m, double other_m, std::st
 
 }  // namespace
 
-std::string predicts_no_better(const Diagnosis& d, const Model& nominal, const Session& unseen,
-                               unsigned threads) {
+std::string predicts_no_better(const Diagnosis& d, const Model& nominal, const Session& used,
+                               const Session& unseen, unsigned threads) {
   if (d.search.contests.empty()) return "";
   if (d.used.with_effects > d.uniform_motion_m)
     return worse("windows", d.used.with_effects, d.uniform_motion_m, "by a cart that just keeps its speed");
-  const Errors& errors = d.held_out_recordings.empty() ? d.used : d.held_out;
-  if (clearly_greater(window_mse_m2(d.search.best.fit.model, unseen, threads),
-                      window_mse_m2(nominal, unseen, threads), kClearlyWorse * kClearlyWorse)) {
-    return worse(d.held_out_recordings.empty() ? "windows" : "windows of held-out recordings",
-                 errors.with_effects, errors.nominal, "by the nominal model as it was given");
-  }
+  const auto worse_than_nominal = [&](const Session& session) {
+    return clearly_greater(window_mse_m2(d.search.best.fit.model, session, threads),
+                           window_mse_m2(nominal, session, threads), kClearlyWorse * kClearlyWorse);
+  };
+  constexpr std::string_view kNominal = "by the nominal model as it was given";
+  if (worse_than_nominal(unseen))
+    return worse("windows of held-out recordings", d.held_out.with_effects, d.held_out.nominal, kNominal);
+  if (worse_than_nominal(used)) return worse("windows", d.used.with_effects, d.used.nominal, kNominal);
   return "";
 }
 

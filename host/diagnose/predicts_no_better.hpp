@@ -10,9 +10,10 @@ namespace cartwright {
 /// not, after "with it"; empty where they do. They do not where windows are predicted worse
 ///
 /// - than by a cart without forces, which keeps its speed;
-/// - surely and by half, on `unseen`, than by the nominal model as it was given: then the noise took in what
-///   is missing.
-std::string predicts_no_better(const Diagnosis& diagnosis, const Model& nominal, const Session& unseen,
-                               unsigned threads);
+/// - surely and by half, on what was used or was not (which may be empty), than by the nominal model as it
+/// was
+///   given: then the noise took in what is missing.
+std::string predicts_no_better(const Diagnosis& diagnosis, const Model& nominal, const Session& used,
+                               const Session& unseen, unsigned threads);
 
 }  // namespace cartwright
