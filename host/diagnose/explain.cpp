@@ -16,8 +16,11 @@ namespace {
 
 constexpr std::size_t kTermsFitted = 5;      // most terms fitted after a screening
 constexpr std::size_t kTermsFittedSlow = 2;  // the same on top of two masses, which cost ten times the time
-constexpr std::size_t kStartsFitted = 2;     // most starts of one term
-constexpr double kLeastPromise = 3.0;        // nats, to be fitted at all
+/// With so many effects found, two masses would be the third; they cost more than all other candidates
+/// together.
+constexpr std::size_t kEffectsBeforeTwoMasses = 2;
+constexpr std::size_t kStartsFitted = 2;  // most starts of one term
+constexpr double kLeastPromise = 3.0;     // nats, to be fitted at all
 /// A fit gains more than its start promises: up to 7 times in carts of all terms. (16 times for a flexible
 /// coupling, but one that large is far above what it would have to promise.)
 constexpr double kMostGainOverPromise = 10.0;
@@ -38,6 +41,7 @@ class Explainer {
   Explainer(const Session& session, const Model& nominal, const SearchOptions& options)
       : session_(session), nominal_(nominal), options_(options), facts_(facts_of(session)) {
     fit_options_.damping_per_s = linear_damping(nominal);
+    fit_options_.threads = options.threads;  // where fits run side by side, the last one gets them all
   }
 
   Search run() {
@@ -119,12 +123,7 @@ class Explainer {
       std::erase_if(chosen, is_gap);
       if (better) chosen.insert(chosen.begin(), *better);
     }
-    FitOptions sketch = fit_options_;
-    sketch.most_rounds = kRoundsOfSketch;
-    sketch.most_iterations = kIterationsOfSketch;
-    sketch.tolerance = kToleranceOfSketch;
-    sketch.covariance = false;
-    sketch.finest_noise_step = kNoiseStepOfSketch;
+    FitOptions sketch = options_of_sketch();
     if (slow(base)) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
     std::vector<Explanation> tried(chosen.size());
     parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
@@ -171,14 +170,22 @@ class Explainer {
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
   }
 
+  FitOptions options_of_sketch() const {
+    FitOptions sketch = fit_options_;
+    sketch.most_rounds = kRoundsOfSketch;
+    sketch.most_iterations = kIterationsOfSketch;
+    sketch.tolerance = kToleranceOfSketch;
+    sketch.covariance = false;
+    sketch.finest_noise_step = kNoiseStepOfSketch;
+    return sketch;
+  }
+
   /// Contact comes and goes: the cost of a model with a gap has kinks, so slopes are taken over wider steps.
-  /// They take so long that one of them must not keep the other threads waiting.
   FitOptions with_kinks(const Model& model, FitOptions options) const {
     if (!model.has(Term::backlash)) return options;
     options.difference_step = kStepOverKinks;
     options.most_rounds = std::min(options.most_rounds, 2);
     options.tolerance = kToleranceOfSketch;
-    options.threads = options_.threads;
     return options;
   }
 
@@ -197,6 +204,7 @@ class Explainer {
       const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
                                    kLeastShareOfBest * promises.front().log_likelihood_gain});
       if (promise.log_likelihood_gain < bar) break;
+      if (two_masses(promise.term) && effects_beyond_every_cart(base) >= kEffectsBeforeTwoMasses) continue;
       if (two_masses(promise.term) &&
           promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain) {
         continue;
@@ -275,8 +283,9 @@ class Explainer {
   }
 
   /// An explanation refitted with another term in the place of one of its effects, which starts as it was
-  /// found.
-  Explanation in_place_of(const Explanation& from, std::size_t effect, const Explanation& rival) const {
+  /// found; to the end only where a sketch scores more than `worth_finishing`.
+  Explanation in_place_of(const Explanation& from, std::size_t effect, const Explanation& rival,
+                          double worth_finishing) const {
     Explanation swapped = from;
     const Term old = from.effects[effect], term = rival.effects.back();
     swapped.effects[effect] = term;
@@ -290,8 +299,12 @@ class Explainer {
       free.push_back(p);
       model.set(p.id, rival.fit.model[p.id]);
     }
-    swapped.fit = fit(without_jumps(session_, from.jumps), model, from.fit.noise, free,
-                      with_kinks(model, fit_options_));
+    const Session data = without_jumps(session_, from.jumps);
+    swapped.fit = fit(data, model, from.fit.noise, free, with_kinks(model, options_of_sketch()));
+    if (swapped.score() > worth_finishing) {
+      const Fit& sketched = swapped.fit;
+      swapped.fit = fit(data, sketched.model, sketched.noise, free, with_kinks(model, fit_options_));
+    }
     return swapped;
   }
 
@@ -309,8 +322,10 @@ class Explainer {
         if (!search.best.has(term) && !two_masses(term) && term != Term::encoder_missed_counts)
           rivals.push_back(rival);
       }
-      parallel_for(rivals.size(), options_.threads,
-                   [&](std::size_t n) { rivals[n] = in_place_of(search.best, i, rivals[n]); });
+      const double worth_finishing = search.best.score() - (1 - kNearTheBest) * contest.gain;
+      parallel_for(rivals.size(), options_.threads, [&](std::size_t n) {
+        rivals[n] = in_place_of(search.best, i, rivals[n], worth_finishing);
+      });
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
         if (better < kLeastGain || !plausible(swapped.fit, swapped.effects[i], session_, facts_)) continue;
