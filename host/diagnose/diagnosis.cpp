@@ -119,7 +119,7 @@ class Diagnostician {
 
     report("replaying windows", 0.88);
     measure(used, held);
-    judge(repaired, only(session_, held));
+    judge(repaired);
     name_effects(used);
     name_parameters();
     propose(used);
@@ -146,13 +146,13 @@ class Diagnostician {
     return !promises.empty() && promises.front().log_likelihood_gain > 2 * kLeastGain;
   }
 
-  void judge(const Session& repaired, const Session& unseen) {
+  void judge(const Session& repaired) {
     const Search& found = result_.search;
     const double left = kGainOverPromise * structure_left(result_.after);
     const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
     const double of_likelihood = left > 0 ? left / (left + gained) : 0;
     const double of_windows = left > 0 ? window_share_left() : 0;
-    std::string why_refused = predicts_no_better(result_, nominal_, repaired, unseen, options_.threads);
+    std::string why_refused = predicts_no_better(result_, windows_used_, windows_unseen_);
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
     const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
     if (why_refused.empty() && (of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood))
@@ -222,23 +222,33 @@ class Diagnostician {
       const Model& model = found.best.fit.model;
       return window_rmse_m(model, surrogate(session, model, noise, 1), options_.threads);
     };
-    const auto errors = [&](auto rmse_m, const Session& raw, const Session& mended) {
+    const bool named = !found.contests.empty();
+    const auto errors = [&](const Session& raw, const Session& mended, WindowErrors& windows) {
+      windows.nominal = window_errors(nominal_, raw, options_.threads);
       Errors e;
-      e.nominal = rmse_m(nominal_, raw, options_.threads);
-      e.refitted = rmse_m(found.refitted.fit.model, raw, options_.threads);
-      e.with_effects =
-          found.contests.empty() ? e.refitted : rmse_m(found.best.fit.model, mended, options_.threads);
+      e.nominal = rms_m(windows.nominal);
+      e.refitted = window_rmse_m(found.refitted.fit.model, raw, options_.threads);
+      if (named) windows.with_effects = window_errors(found.best.fit.model, mended, options_.threads);
+      e.with_effects = named ? rms_m(windows.with_effects) : e.refitted;
       return e;
     };
-    result_.used = errors(window_rmse_m, used, repaired);
+    const auto closed_loop = [&](const Session& raw, const Session& mended) {
+      Errors e;
+      e.nominal = closed_loop_rmse_m(nominal_, raw, options_.threads);
+      e.refitted = closed_loop_rmse_m(found.refitted.fit.model, raw, options_.threads);
+      e.with_effects =
+          named ? closed_loop_rmse_m(found.best.fit.model, mended, options_.threads) : e.refitted;
+      return e;
+    };
+    result_.used = errors(used, repaired, windows_used_);
     result_.uniform_motion_m = window_rmse_m(Model(0.0), repaired, options_.threads);
-    result_.used_closed_loop = errors(closed_loop_rmse_m, used, repaired);
+    result_.used_closed_loop = closed_loop(used, repaired);
     if (!held.empty()) {
       const Session out = only(session_, held);
       const Session mended = found.best.has(Term::encoder_missed_counts) ? repair(out) : out;
       held_floor_m_ = floor_m(out);
-      result_.held_out = errors(window_rmse_m, out, mended);
-      result_.held_out_closed_loop = errors(closed_loop_rmse_m, out, mended);
+      result_.held_out = errors(out, mended, windows_unseen_);
+      result_.held_out_closed_loop = closed_loop(out, mended);
     }
     double floor = floor_m(used);
     const double systematic =
@@ -351,6 +361,7 @@ class Diagnostician {
   const DiagnoseOptions& options_;
   FitOptions fit_options_;
   Diagnosis result_;
+  WindowErrors windows_used_, windows_unseen_;
   double held_floor_m_ = 0;
 };
 

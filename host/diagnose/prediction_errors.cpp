@@ -5,25 +5,8 @@
 #include "host/parallel.hpp"
 
 namespace cartwright {
-namespace {
 
-template <typename ErrorOf>
-double rms_m(const Session& session, unsigned threads, const ErrorOf& error_of) {
-  std::vector<SquaredError> errors(session.recordings.size());
-  parallel_for(errors.size(), threads, [&](std::size_t n) { errors[n] = error_of(session.recordings[n]); });
-  SquaredError sum;
-  for (const SquaredError& error : errors) sum.add(error);
-  return sum.rms_m();
-}
-
-}  // namespace
-
-double window_rmse_m(const Model& model, const Session& session, unsigned threads) {
-  return rms_m(session, threads,
-               [&](const Recording& r) { return squared_error(replay_windows(model, r), r.y_m); });
-}
-
-std::vector<double> window_mse_m2(const Model& model, const Session& session, unsigned threads) {
+std::vector<SquaredError> window_errors(const Model& model, const Session& session, unsigned threads) {
   std::vector<std::vector<SquaredError>> errors(session.recordings.size());
   parallel_for(errors.size(), threads, [&](std::size_t n) {
     const Recording& r = session.recordings[n];
@@ -34,19 +17,29 @@ std::vector<double> window_mse_m2(const Model& model, const Session& session, un
       errors[n][window].add(predicted_m[k], r.y_m[k]);
     }
   });
-  std::vector<double> out;
-  for (const std::vector<SquaredError>& of_recording : errors) {
-    for (const SquaredError& e : of_recording) {
-      if (e.rows > 0) out.push_back(e.sum_m2 / static_cast<double>(e.rows));
-    }
-  }
-  return out;
+  std::vector<SquaredError> all;
+  for (const std::vector<SquaredError>& of_recording : errors)
+    all.insert(all.end(), of_recording.begin(), of_recording.end());
+  return all;
+}
+
+double rms_m(const std::vector<SquaredError>& windows) {
+  SquaredError sum;
+  for (const SquaredError& window : windows) sum.add(window);
+  return sum.rms_m();
+}
+
+double window_rmse_m(const Model& model, const Session& session, unsigned threads) {
+  return rms_m(window_errors(model, session, threads));
 }
 
 double closed_loop_rmse_m(const Model& model, const Session& session, unsigned threads) {
-  return rms_m(session, threads, [&](const Recording& r) {
-    return r.has_controller() ? squared_error(simulate(model, session.rig, r).y_m, r.y_m) : SquaredError{};
+  std::vector<SquaredError> errors(session.recordings.size());
+  parallel_for(errors.size(), threads, [&](std::size_t n) {
+    const Recording& r = session.recordings[n];
+    if (r.has_controller()) errors[n] = squared_error(simulate(model, session.rig, r).y_m, r.y_m);
   });
+  return rms_m(errors);
 }
 
 }  // namespace cartwright

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/diagnose/prediction_errors.hpp"
@@ -15,16 +16,21 @@ namespace {
 constexpr double kClearlyWorse = 1.5;
 constexpr double kSure = 0.95;
 
-/// Whether the mean of `these` is greater than that of `those`, pair by pair, beyond chance and by half.
-bool clearly_greater(const std::vector<double>& these, const std::vector<double>& those, double factor) {
-  const std::size_t n = these.size();
-  if (n < 3 || those.size() != n) return false;
-  const Eigen::Map<const Eigen::ArrayXd> a(these.data(), static_cast<Eigen::Index>(n));
-  const Eigen::Map<const Eigen::ArrayXd> b(those.data(), static_cast<Eigen::Index>(n));
-  const Eigen::ArrayXd more = a - b;
+/// Whether windows are predicted worse than by the nominal model, window by window beyond chance, and by
+/// half.
+bool clearly_worse(const WindowErrors& windows) {
+  const std::size_t n = windows.nominal.size();
+  if (n < 3) return false;
+  Eigen::ArrayXd more(n);  // mean squares of each window, with effects less nominal
+  for (std::size_t i = 0; i < n; ++i) {
+    const SquaredError &with = windows.with_effects[i], &nominal = windows.nominal[i];
+    more[static_cast<Eigen::Index>(i)] =
+        (with.sum_m2 - nominal.sum_m2) / static_cast<double>(std::max<std::size_t>(1, with.rows));
+  }
   const double degrees = static_cast<double>(n - 1);
   const double spread = std::sqrt((more - more.mean()).square().sum() / degrees / static_cast<double>(n));
-  return a.mean() > factor * b.mean() && more.mean() > student_t(kSure, degrees) * spread;
+  return rms_m(windows.with_effects) > kClearlyWorse * rms_m(windows.nominal) &&
+         more.mean() > student_t(kSure, degrees) * spread;
 }
 
 std::string worse(std::string_view which, double with_m, double other_m, std::string_view than) {
@@ -34,19 +40,15 @@ std::string worse(std::string_view which, double with_m, double other_m, std::st
 
 }  // namespace
 
-std::string predicts_no_better(const Diagnosis& d, const Model& nominal, const Session& used,
-                               const Session& unseen, unsigned threads) {
+std::string predicts_no_better(const Diagnosis& d, const WindowErrors& used, const WindowErrors& unseen) {
+  constexpr std::string_view kNominal = "by the nominal model as it was given";
   if (d.search.contests.empty()) return "";
   if (d.used.with_effects > d.uniform_motion_m)
     return worse("windows", d.used.with_effects, d.uniform_motion_m, "by a cart that just keeps its speed");
-  const auto worse_than_nominal = [&](const Session& session) {
-    return clearly_greater(window_mse_m2(d.search.best.fit.model, session, threads),
-                           window_mse_m2(nominal, session, threads), kClearlyWorse * kClearlyWorse);
-  };
-  constexpr std::string_view kNominal = "by the nominal model as it was given";
-  if (worse_than_nominal(unseen))
-    return worse("windows of held-out recordings", d.held_out.with_effects, d.held_out.nominal, kNominal);
-  if (worse_than_nominal(used)) return worse("windows", d.used.with_effects, d.used.nominal, kNominal);
+  if (clearly_worse(unseen))
+    return worse("windows of held-out recordings", rms_m(unseen.with_effects), rms_m(unseen.nominal),
+                 kNominal);
+  if (clearly_worse(used)) return worse("windows", rms_m(used.with_effects), rms_m(used.nominal), kNominal);
   return "";
 }
 

@@ -1,10 +1,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host/diagnose/diagnosis.hpp"
+#include "host/evaluate/replay.hpp"
 
 namespace cartwright {
+
+/// Errors of the same windows, predicted by the nominal model as it was given and by the one with effects.
+struct WindowErrors {
+  std::vector<SquaredError> nominal, with_effects;
+};
 
 /// Effects that were found fit the one-step errors; an explanation must also predict. In words, why they do
 /// not, after "with it"; empty where they do. They do not where windows are predicted worse
@@ -13,7 +20,7 @@ namespace cartwright {
 /// - surely and by half, on what was used or was not (which may be empty), than by the nominal model as it
 /// was
 ///   given: then the noise took in what is missing.
-std::string predicts_no_better(const Diagnosis& diagnosis, const Model& nominal, const Session& used,
-                               const Session& unseen, unsigned threads);
+std::string predicts_no_better(const Diagnosis& diagnosis, const WindowErrors& used,
+                               const WindowErrors& unseen);
 
 }  // namespace cartwright

@@ -13,12 +13,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using P = Parameter;
 
-/// An answer that names something, predicts the unseen recordings by `found`, and lowers the window error.
-Diagnosis answer(const Model& found) {
+/// An answer that names something and lowers the window errors.
+Diagnosis answer() {
   Diagnosis d;
   d.search.contests.resize(1);
-  d.search.best.fit.model = found;
-  d.used.nominal = 3e-4, d.used.refitted = 2e-4, d.used.with_effects = 5e-5;
+  d.used = {3e-4, 2e-4, 5e-5};
   d.uniform_motion_m = 2e-2;
   return d;
 }
@@ -31,45 +30,45 @@ Model off_by(double factor) {
   return cart().set(P::voltage_gain, 1.9 * factor);
 }
 
-/// Two tracks of that cart.
-Session unseen() {
+/// Two tracks of that cart, predicted by a nominal model and by a found one.
+WindowErrors tracks(const Model& nominal, const Model& found) {
   Session session = test::battery({});
   session.recordings = {session.recordings[3], session.recordings[7]};
-  return session;
+  return {window_errors(nominal, session, 1), window_errors(found, session, 1)};
 }
 
 TEST(PredictsNoBetter, IsSilentWhereTheAnswerPredictsBetter) {
-  EXPECT_THAT(predicts_no_better(answer(cart()), off_by(1.02), {}, unseen(), 1), IsEmpty());
+  const WindowErrors windows = tracks(off_by(1.02), cart());
+  EXPECT_THAT(predicts_no_better(answer(), windows, windows), IsEmpty());
 }
 
 TEST(PredictsNoBetter, SaysThatTheNominalModelPredictsUnseenRecordingsBetter) {
-  EXPECT_THAT(predicts_no_better(answer(off_by(1.1)), off_by(1.02), {}, unseen(), 1),
-              HasSubstr("nominal model"));
+  const WindowErrors good = tracks(off_by(1.02), cart()), bad = tracks(off_by(1.02), off_by(1.1));
+  EXPECT_THAT(predicts_no_better(answer(), good, bad), HasSubstr("held-out"));
 }
 
 TEST(PredictsNoBetter, AsksTheRecordingsThatWereUsedToo) {
-  EXPECT_THAT(predicts_no_better(answer(off_by(1.1)), off_by(1.02), unseen(), {}, 1),
+  EXPECT_THAT(predicts_no_better(answer(), tracks(off_by(1.02), off_by(1.1)), {}),
               HasSubstr("nominal model"));
 }
 
 TEST(PredictsNoBetter, LeavesALittleWorseAlone) {
-  EXPECT_THAT(predicts_no_better(answer(off_by(1.024)), off_by(1.02), {}, unseen(), 1), IsEmpty());
+  const WindowErrors windows = tracks(off_by(1.02), off_by(1.024));
+  EXPECT_THAT(predicts_no_better(answer(), windows, windows), IsEmpty());
 }
 
 TEST(PredictsNoBetter, DoesNotJudgeByTwoWindows) {
-  Session few = unseen();
-  few.recordings.resize(1);
-  Recording& r = few.recordings.front();
-  const std::size_t second = static_cast<std::size_t>(few.rig.sample_rate_hz);
-  for (auto* column : {&r.t_s, &r.u_V, &r.y_m, &r.r_m}) column->resize(second);
-  EXPECT_EQ(window_mse_m2(cart(), few, 1).size(), 2U);
-  EXPECT_THAT(predicts_no_better(answer(off_by(1.1)), off_by(1.02), {}, few, 1), IsEmpty());
+  WindowErrors few = tracks(off_by(1.02), off_by(1.1));
+  few.nominal.resize(2);
+  few.with_effects.resize(2);
+  EXPECT_THAT(predicts_no_better(answer(), few, {}), IsEmpty());
 }
 
 TEST(PredictsNoBetter, SaysThatACartWithoutForcesPredictsBetter) {
-  Diagnosis d = answer(cart());
+  const WindowErrors windows = tracks(off_by(1.02), cart());
+  Diagnosis d = answer();
   d.uniform_motion_m = 4e-5;
-  EXPECT_THAT(predicts_no_better(d, off_by(1.02), {}, unseen(), 1), HasSubstr("keeps its speed"));
+  EXPECT_THAT(predicts_no_better(d, windows, windows), HasSubstr("keeps its speed"));
 }
 
 }  // namespace
