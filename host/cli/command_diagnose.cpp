@@ -35,13 +35,9 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     fmt::print("  {}: nominal {:.5g}, found {:.5g} [{:.5g}, {:.5g}]\n", dotted_name(p.id), p.nominal,
                p.refitted.value, p.refitted.low, p.refitted.high);
   }
-  fmt::print(
-      "  0.5 s windows, rms: nominal {:.3g} um, refitted {:.3g} um, with effects {:.3g} um, noise floor "
-      "{:.3g} um\n",
-      1e6 * d.used.nominal, 1e6 * d.used.refitted, 1e6 * d.used.with_effects, 1e6 * d.noise_floor_m);
+  fmt::print("  {}\n", statement_of_windows(d));
   if (d.unexplained) {
-    fmt::print("  unexplained: {:.0f} % of what is missing; most of it along {}\n",
-               100 * d.unexplained->share_left, d.unexplained->axis);
+    fmt::print("  {}\n", statement_of_left_over(*d.unexplained));
     const std::string periods = statement_of_periods(d.unexplained->periods_m);
     if (!periods.empty()) fmt::print("  {}\n", periods);
     if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);

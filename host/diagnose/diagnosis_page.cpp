@@ -25,7 +25,7 @@ Cell micrometres(double value_m) {
 /// A statement's plain characters as a page can show them.
 std::string typeset(std::string text) {
   for (const auto& [plain, shown] :
-       {std::pair<std::string_view, std::string_view>{"+-", "±"}, {"/s^2", "/s²"}}) {
+       {std::pair<std::string_view, std::string_view>{"+-", "±"}, {"/s^2", "/s²"}, {" um", " µm"}}) {
     for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain, at + shown.size()))
       text.replace(at, plain.size(), shown);
   }
@@ -33,11 +33,7 @@ std::string typeset(std::string text) {
 }
 
 void verdict(Report& page, const Diagnosis& d) {
-  std::string detail = fmt::format(
-      "0.5 s windows of the recorded voltage: nominal model {:.3g} µm rms, refitted {:.3g} µm, with what was "
-      "found {:.3g} "
-      "µm; noise floor {:.3g} µm.",
-      1e6 * d.used.nominal, 1e6 * d.used.refitted, 1e6 * d.used.with_effects, 1e6 * d.noise_floor_m);
+  std::string detail = typeset(statement_of_windows(d));
   switch (d.verdict) {
     case Verdict::no_mismatch:
       page.verdict(Tone::good, "The model fits: nothing beyond noise.", detail);
@@ -54,7 +50,7 @@ void verdict(Report& page, const Diagnosis& d) {
     }
     case Verdict::unexplained:
       page.verdict(Tone::bad, "Something is missing that no term of the vocabulary explains.",
-                   d.unexplained->why_refused + ". " + detail);
+                   typeset(d.unexplained->why_refused) + ". " + detail);
       return;
   }
 }
@@ -92,11 +88,7 @@ void what(Report& page, const Diagnosis& d) {
   page.table(numbers);
   if (d.unexplained) {
     page.subsection("Unexplained");
-    page.paragraph(
-        fmt::format("{:.0f} % of what is missing stays so after the best candidate. Most of it lies along "
-                    "{}; this is the push "
-                    "itself, usable as a table.",
-                    100 * d.unexplained->share_left, d.unexplained->axis));
+    page.paragraph(statement_of_left_over(*d.unexplained) + " The push itself, usable as a table:");
     page.plot(map_plot(d.unexplained->curve, {}));
     const std::string periods = statement_of_periods(d.unexplained->periods_m);
     if (!periods.empty()) page.paragraph(periods);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/statement.hpp"
 #include "host/statistics/distributions.hpp"
 
 namespace cartwright {
@@ -34,8 +35,8 @@ bool clearly_worse(const WindowErrors& windows) {
 }
 
 std::string worse(std::string_view which, double with_m, double other_m, std::string_view than) {
-  return fmt::format("{} are predicted worse ({:.3g} mm) than {} ({:.3g} mm)", which, 1e3 * with_m, than,
-                     1e3 * other_m);
+  return fmt::format("{} are predicted worse ({}) than {} ({})", which, length_text(with_m), than,
+                     length_text(other_m));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "host/diagnose/diagnosis.hpp"
+
 namespace cartwright {
 namespace {
 
@@ -101,6 +103,23 @@ std::string statement(Term term, const Model& m) {
                          m[P::amplifier_gain_difference] > 0 ? "higher" : "lower");
   }
   return {};
+}
+
+std::string length_text(double length_m) {
+  return length_m < 1e-3 ? fmt::format("{:.3g} um", 1e6 * length_m)
+                         : fmt::format("{:.3g} mm", 1e3 * length_m);
+}
+
+std::string statement_of_windows(const Diagnosis& d) {
+  return fmt::format("0.5 s windows, rms: nominal {}, refitted {}, with effects {}, noise floor {}.",
+                     length_text(d.used.nominal), length_text(d.used.refitted),
+                     length_text(d.used.with_effects), length_text(d.noise_floor_m));
+}
+
+std::string statement_of_left_over(const Unexplained& left) {
+  const std::string where = left.curve.flat() ? "no axis shows it above chance"
+                                              : fmt::format("most of it lies along {}", left.axis);
+  return fmt::format("{:.0f} % of what is missing stays unexplained; {}.", 100 * left.share_left, where);
 }
 
 std::string statement_of_periods(const std::vector<double>& periods_m) {

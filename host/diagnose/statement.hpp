@@ -10,6 +10,18 @@ namespace cartwright {
 /// An effect as a sentence with its numbers and units.
 std::string statement(Term term, const Model& model);
 
+struct Diagnosis;
+struct Unexplained;
+
+/// "57.3 um" below a millimetre, "1.22 mm" from there on.
+std::string length_text(double length_m);
+
+/// How well windows are predicted: as given, refitted, with what was found, and the noise floor.
+std::string statement_of_windows(const Diagnosis& diagnosis);
+
+/// How much stays unexplained, and along which axis, if any shows it.
+std::string statement_of_left_over(const Unexplained& left);
+
 /// That pushes with these periods stand above chance without a name; empty where there are none.
 std::string statement_of_periods(const std::vector<double>& periods_m);
 
