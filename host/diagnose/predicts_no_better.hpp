@@ -17,9 +17,8 @@ struct WindowErrors {
 /// not, after "with it"; empty where they do. They do not where windows are predicted worse
 ///
 /// - than by a cart without forces, which keeps its speed;
-/// - surely and by half, on what was used or was not (which may be empty), than by the nominal model as it
-/// was
-///   given: then the noise took in what is missing.
+/// - by half, and surely, than by the nominal model as it was given, on what was used or on what was not (if
+///   anything): then the noise took in what is missing.
 std::string predicts_no_better(const Diagnosis& diagnosis, const WindowErrors& used,
                                const WindowErrors& unseen);
 
