@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "host/diagnose/estimate.hpp"
 #include "host/diagnose/further_push.hpp"
@@ -223,32 +224,21 @@ class Diagnostician {
       return window_rmse_m(model, surrogate(session, model, noise, 1), options_.threads);
     };
     const bool named = !found.contests.empty();
-    const auto errors = [&](const Session& raw, const Session& mended, WindowErrors& windows) {
-      windows.nominal = window_errors(nominal_, raw, options_.threads);
-      Errors e;
-      e.nominal = rms_m(windows.nominal);
-      e.refitted = window_rmse_m(found.refitted.fit.model, raw, options_.threads);
-      if (named) windows.with_effects = window_errors(found.best.fit.model, mended, options_.threads);
-      e.with_effects = named ? rms_m(windows.with_effects) : e.refitted;
-      return e;
+    const auto errors = [&](auto errors_of, const Session& raw, const Session& mended) {
+      const std::vector<SquaredError> refitted = errors_of(found.refitted.fit.model, raw, options_.threads);
+      const WindowErrors kept{errors_of(nominal_, raw, options_.threads),
+                              named ? errors_of(found.best.fit.model, mended, options_.threads) : refitted};
+      return std::pair{Errors{rms_m(kept.nominal), rms_m(refitted), rms_m(kept.with_effects)}, kept};
     };
-    const auto closed_loop = [&](const Session& raw, const Session& mended) {
-      Errors e;
-      e.nominal = closed_loop_rmse_m(nominal_, raw, options_.threads);
-      e.refitted = closed_loop_rmse_m(found.refitted.fit.model, raw, options_.threads);
-      e.with_effects =
-          named ? closed_loop_rmse_m(found.best.fit.model, mended, options_.threads) : e.refitted;
-      return e;
-    };
-    result_.used = errors(used, repaired, windows_used_);
+    std::tie(result_.used, windows_used_) = errors(window_errors, used, repaired);
     result_.uniform_motion_m = window_rmse_m(Model(0.0), repaired, options_.threads);
-    result_.used_closed_loop = closed_loop(used, repaired);
+    result_.used_closed_loop = errors(closed_loop_errors, used, repaired).first;
     if (!held.empty()) {
       const Session out = only(session_, held);
       const Session mended = found.best.has(Term::encoder_missed_counts) ? repair(out) : out;
       held_floor_m_ = floor_m(out);
-      result_.held_out = errors(out, mended, windows_unseen_);
-      result_.held_out_closed_loop = closed_loop(out, mended);
+      std::tie(result_.held_out, windows_unseen_) = errors(window_errors, out, mended);
+      result_.held_out_closed_loop = errors(closed_loop_errors, out, mended).first;
     }
     double floor = floor_m(used);
     const double systematic =

@@ -162,12 +162,15 @@ class Explainer {
     const double bar = base_score + kWorthFinishing * (tried.front().score() - base_score);
     parallel_for(tried.size(), options_.threads, [&](std::size_t i) {
       if (tried[i].score() < bar) return;
-      const Session data = without_jumps(session_, tried[i].jumps);
-      const Fit& from = tried[i].fit;
-      tried[i].fit = fit(data, from.model, from.noise, from.free, with_kinks(from.model, fit_options_));
+      tried[i].fit = finished(without_jumps(session_, tried[i].jumps), tried[i].fit);
     });
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
+  }
+
+  /// A sketch, fitted to the end.
+  Fit finished(const Session& data, const Fit& sketch) const {
+    return fit(data, sketch.model, sketch.noise, sketch.free, with_kinks(sketch.model, fit_options_));
   }
 
   FitOptions options_of_sketch() const {
@@ -204,9 +207,9 @@ class Explainer {
       const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
                                    kLeastShareOfBest * promises.front().log_likelihood_gain});
       if (promise.log_likelihood_gain < bar) break;
-      if (two_masses(promise.term) && effects_beyond_every_cart(base) >= kEffectsBeforeTwoMasses) continue;
       if (two_masses(promise.term) &&
-          promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain) {
+          (effects_beyond_every_cart(base) >= kEffectsBeforeTwoMasses ||
+           promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain)) {
         continue;
       }
       if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
@@ -301,10 +304,7 @@ class Explainer {
     }
     const Session data = without_jumps(session_, from.jumps);
     swapped.fit = fit(data, model, from.fit.noise, free, with_kinks(model, options_of_sketch()));
-    if (swapped.score() > worth_finishing) {
-      const Fit& sketched = swapped.fit;
-      swapped.fit = fit(data, sketched.model, sketched.noise, free, with_kinks(model, fit_options_));
-    }
+    if (swapped.score() > worth_finishing) swapped.fit = finished(data, swapped.fit);
     return swapped;
   }
 

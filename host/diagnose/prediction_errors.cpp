@@ -23,9 +23,9 @@ std::vector<SquaredError> window_errors(const Model& model, const Session& sessi
   return all;
 }
 
-double rms_m(const std::vector<SquaredError>& windows) {
+double rms_m(const std::vector<SquaredError>& errors) {
   SquaredError sum;
-  for (const SquaredError& window : windows) sum.add(window);
+  for (const SquaredError& error : errors) sum.add(error);
   return sum.rms_m();
 }
 
@@ -33,13 +33,13 @@ double window_rmse_m(const Model& model, const Session& session, unsigned thread
   return rms_m(window_errors(model, session, threads));
 }
 
-double closed_loop_rmse_m(const Model& model, const Session& session, unsigned threads) {
+std::vector<SquaredError> closed_loop_errors(const Model& model, const Session& session, unsigned threads) {
   std::vector<SquaredError> errors(session.recordings.size());
   parallel_for(errors.size(), threads, [&](std::size_t n) {
     const Recording& r = session.recordings[n];
     if (r.has_controller()) errors[n] = squared_error(simulate(model, session.rig, r).y_m, r.y_m);
   });
-  return rms_m(errors);
+  return errors;
 }
 
 }  // namespace cartwright

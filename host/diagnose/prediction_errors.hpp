@@ -14,11 +14,11 @@ double window_rmse_m(const Model& model, const Session& session, unsigned thread
 /// The error of each of these windows, recordings in order.
 std::vector<SquaredError> window_errors(const Model& model, const Session& session, unsigned threads);
 
-/// Root-mean-square error [m] of all of them; NaN for none.
-double rms_m(const std::vector<SquaredError>& windows);
+/// Root-mean-square error [m] of all of them; NaN where they have no row.
+double rms_m(const std::vector<SquaredError>& errors);
 
-/// Root-mean-square error [m] with each recording's own controller run on the model from its reference; NaN
-/// where no recording comes with a controller.
-double closed_loop_rmse_m(const Model& model, const Session& session, unsigned threads);
+/// The error of each recording with its own controller run on the model from its reference; of no row where a
+/// recording comes without a controller.
+std::vector<SquaredError> closed_loop_errors(const Model& model, const Session& session, unsigned threads);
 
 }  // namespace cartwright
