@@ -12,6 +12,7 @@ namespace {
 
 using P = Parameter;
 
+constexpr double kSlowCorrelation_s = 0.003;
 constexpr double kMostData_s = 18;
 constexpr int kMostEvaluations = 700;
 /// First steps: of the mass's share along the way that it can hardly be told on, of what else the teeth have,
@@ -40,6 +41,12 @@ Model moved(const Model& from, const std::vector<FreeParameter>& free, const Eig
 }
 
 }  // namespace
+
+NoiseModel sharp(NoiseModel noise, double share_of_disturbance) {
+  noise.disturbance_per_reading_per_s2 *= share_of_disturbance;
+  noise.correlation_time_s = std::max(noise.correlation_time_s, kSlowCorrelation_s);
+  return noise;
+}
 
 Model evolve_gap(const Session& session, const Model& from, const NoiseModel& noise,
                  const std::vector<FreeParameter>& free, FitOptions options, unsigned threads) {

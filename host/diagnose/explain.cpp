@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/diagnose/basis.hpp"
+#include "host/diagnose/evolve_gap.hpp"
 #include "host/diagnose/plausible.hpp"
 #include "host/diagnose/promises.hpp"
 #include "host/parallel.hpp"
@@ -31,6 +32,7 @@ constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
 constexpr double kToleranceOfSketch = 2.0;  // nats
 constexpr double kNoiseStepOfSketch = 0.15;
+constexpr double kSketchNearEnough = 0.5;     // of the least gain
 constexpr double kNearTheBest = 0.7;          // of the best gain
 constexpr double kWorthFinishing = 0.3;       // of the best gain
 constexpr double kLeastShareOfBest = 0.03;    // of the best promise
@@ -62,7 +64,7 @@ class Explainer {
              std::min(0.95,
                       (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1)));
       const double so_far = search.best.score() - search.refitted.score();
-      const double bar = std::max(kLeastGain, kLeastShareOfGain * so_far);
+      const double bar = least_further_gain(so_far);
       std::vector<Explanation> tried = next_effects(search, stage, bar);
       if (tried.empty() || tried.front().score() - search.best.score() < bar) break;
       if (only_went_on(search, tried.front(), bar)) break;
@@ -72,6 +74,7 @@ class Explainer {
       contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
                                   std::make_move_iterator(tried.end()));
       search.contests.push_back(std::move(contest));
+      evolve_again(search);
       swap_stand_ins(search);
       drop_redundant(search);
     }
@@ -92,6 +95,9 @@ class Explainer {
     });
     return free;
   }
+
+  /// What a further effect must gain.
+  static double least_further_gain(double so_far) { return std::max(kLeastGain, kLeastShareOfGain * so_far); }
 
   static bool every_cart_has(Term term) {
     return term == Term::viscous_friction || term == Term::coulomb_friction || term == Term::constant_force;
@@ -135,7 +141,7 @@ class Explainer {
     });
     if (lost) tried.push_back(*lost);
     tried = best_per_term(std::move(tried));
-    finish_best(tried, base.score());
+    finish_best(tried, base.score(), least_gain);
     std::erase_if(tried, [this](const Explanation& one) {
       return !plausible(one.fit, one.effects.back(), session_, facts_);
     });
@@ -156,9 +162,10 @@ class Explainer {
     std::rotate(tried.begin(), simplest, simplest + 1);
   }
 
-  /// Fits the leading explanations to the end; the rest are only there to be told from.
-  void finish_best(std::vector<Explanation>& tried, double base_score) const {
-    if (tried.empty() || tried.front().score() - base_score < 0.5 * kLeastGain) return;
+  /// Fits the leading explanations to the end; the rest are only there to be told from. None where the best
+  /// is far from what it has to gain.
+  void finish_best(std::vector<Explanation>& tried, double base_score, double least_gain) const {
+    if (tried.empty() || tried.front().score() - base_score < kSketchNearEnough * least_gain) return;
     const double bar = base_score + kWorthFinishing * (tried.front().score() - base_score);
     parallel_for(tried.size(), options_.threads, [&](std::size_t i) {
       if (tried[i].score() < bar) return;
@@ -198,9 +205,18 @@ class Explainer {
 
   static bool is_gap(const Promise& promise) { return promise.term == Term::backlash; }
 
+  /// A coupling with play shows that play more than that it gives; where it is told the other way round, a
+  /// gap would be looked for in vain, at great cost.
+  static bool gives_rather_than_plays(const std::vector<Promise>& promises) {
+    const auto first = std::find_if(promises.begin(), promises.end(),
+                                    [](const Promise& one) { return two_masses(one.term); });
+    return first != promises.end() && !is_gap(*first);
+  }
+
   std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double least_gain,
                                      const Explanation& base) const {
     const std::size_t most_terms = slow(base) ? kTermsFittedSlow : kTermsFitted;
+    const bool no_gap = gives_rather_than_plays(promises);
     std::vector<Promise> chosen;
     std::map<Term, std::size_t> starts;
     for (const Promise& promise : promises) {
@@ -212,6 +228,7 @@ class Explainer {
            promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain)) {
         continue;
       }
+      if (is_gap(promise) && no_gap) continue;
       if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
       // A second start is worth its time only where it promises nearly as much.
       if (starts[promise.term] >= kStartsFitted) continue;
@@ -285,6 +302,25 @@ class Explainer {
     return true;
   }
 
+  /// What was added beside a gap moves the gap's own numbers, and slopes do not lead there. What that gains
+  /// is the gap's.
+  void evolve_again(Search& search) const {
+    const Explanation& found = search.best;
+    const auto gap = std::find_if(search.contests.begin(), search.contests.end(),
+                                  [](const Contest& one) { return one.chosen == Term::backlash; });
+    if (gap == search.contests.end() || found.effects.back() == Term::backlash) return;
+    const Session data = without_jumps(session_, found.jumps);
+    const FitOptions options = with_kinks(found.fit.model, fit_options_);
+    const Model start = evolve_gap(data, found.fit.model, sharp(found.fit.noise, kFinerDisturbance),
+                                   found.fit.free, options, options_.threads);
+    Explanation evolved = found;
+    evolved.fit = fit(data, start, found.fit.noise, found.fit.free, options);
+    const double better = evolved.score() - found.score();
+    if (better <= 0) return;
+    gap->gain += better;
+    search.best = std::move(evolved);
+  }
+
   /// An explanation refitted with another term in the place of one of its effects, which starts as it was
   /// found; to the end only where a sketch scores more than `worth_finishing`.
   Explanation in_place_of(const Explanation& from, std::size_t effect, const Explanation& rival,
@@ -338,13 +374,16 @@ class Explainer {
     }
   }
 
-  /// An effect found early may only have stood in for one found later.
+  /// An effect found early may only have stood in for one found later. Beside a gap, whose form is slightly
+  /// off until all else is known, it must gain what it had to gain to be found.
   void drop_redundant(Search& search) const {
+    const double so_far = search.best.score() - search.refitted.score();
+    const double bar = search.best.has(Term::backlash) ? least_further_gain(so_far) : kLeastGain;
     for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
       const Term term = search.best.effects[i];
       if (term == Term::encoder_missed_counts) continue;
       Explanation without = doing_without(search.best, i);
-      if (search.best.score() - without.score() >= kLeastGain) continue;
+      if (search.best.score() - without.score() >= bar) continue;
       search.best = std::move(without);
       search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));
       return;
