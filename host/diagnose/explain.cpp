@@ -1,30 +1,19 @@
 #include "host/diagnose/explain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 
 #include "host/diagnose/basis.hpp"
 #include "host/diagnose/evolve_gap.hpp"
 #include "host/diagnose/plausible.hpp"
 #include "host/diagnose/promises.hpp"
+#include "host/diagnose/worth_fitting.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {
 
-constexpr std::size_t kTermsFitted = 5;      // most terms fitted after a screening
-constexpr std::size_t kTermsFittedSlow = 2;  // the same on top of two masses, which cost ten times the time
-/// With so many effects found, two masses would be the third; they cost more than all other candidates
-/// together.
-constexpr std::size_t kEffectsBeforeTwoMasses = 2;
-constexpr std::size_t kStartsFitted = 2;  // most starts of one term
-constexpr double kLeastPromise = 3.0;     // nats, to be fitted at all
-/// A fit gains more than its start promises: up to 7 times in carts of all terms. (16 times for a flexible
-/// coupling, but one that large is far above what it would have to promise.)
-constexpr double kMostGainOverPromise = 10.0;
 /// Ends a search that keeps finding what it drops again.
 constexpr std::size_t kMostStages = 8;
 constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
@@ -35,7 +24,6 @@ constexpr double kNoiseStepOfSketch = 0.15;
 constexpr double kSketchNearEnough = 0.5;     // of the least gain
 constexpr double kNearTheBest = 0.7;          // of the best gain
 constexpr double kWorthFinishing = 0.3;       // of the best gain
-constexpr double kLeastShareOfBest = 0.03;    // of the best promise
 constexpr std::size_t kRivalsAskedAgain = 2;  // of each effect, once there are further ones
 
 class Explainer {
@@ -59,7 +47,7 @@ class Explainer {
                               search.refitted.fit.free, fit_options_);
     search.best = search.refitted;
     for (std::size_t stage = 0;
-         stage < kMostStages && effects_beyond_every_cart(search.best) < options_.most_effects; ++stage) {
+         stage < kMostStages && search.best.effects_beyond_every_cart() < options_.most_effects; ++stage) {
       report("looking for what was left out",
              std::min(0.95,
                       (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1)));
@@ -99,16 +87,6 @@ class Explainer {
   /// What a further effect must gain.
   static double least_further_gain(double so_far) { return std::max(kLeastGain, kLeastShareOfGain * so_far); }
 
-  static bool every_cart_has(Term term) {
-    return term == Term::viscous_friction || term == Term::coulomb_friction || term == Term::constant_force;
-  }
-
-  /// A nominal model may lack what every cart has; that it is found must not end the search for the rest.
-  static std::size_t effects_beyond_every_cart(const Explanation& one) {
-    const auto has = std::count_if(one.effects.begin(), one.effects.end(), every_cart_has);
-    return one.effects.size() - static_cast<std::size_t>(has);
-  }
-
   void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }
 
   /// Every promising term added to the best explanation so far, fitted; best score first.
@@ -130,7 +108,7 @@ class Explainer {
       if (better) chosen.insert(chosen.begin(), *better);
     }
     FitOptions sketch = options_of_sketch();
-    if (slow(base)) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
+    if (base.has_two_masses()) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
     std::vector<Explanation> tried(chosen.size());
     parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
       tried[i].effects = base.effects;
@@ -197,52 +175,6 @@ class Explainer {
     options.most_rounds = std::min(options.most_rounds, 2);
     options.tolerance = kToleranceOfSketch;
     return options;
-  }
-
-  static bool slow(const Explanation& one) {
-    return std::any_of(one.effects.begin(), one.effects.end(), two_masses);
-  }
-
-  static bool is_gap(const Promise& promise) { return promise.term == Term::backlash; }
-
-  /// A coupling with play shows that play more than that it gives; where it is told the other way round, a
-  /// gap would be looked for in vain, at great cost.
-  static bool gives_rather_than_plays(const std::vector<Promise>& promises) {
-    const auto first = std::find_if(promises.begin(), promises.end(),
-                                    [](const Promise& one) { return two_masses(one.term); });
-    return first != promises.end() && !is_gap(*first);
-  }
-
-  std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double least_gain,
-                                     const Explanation& base) const {
-    const std::size_t most_terms = slow(base) ? kTermsFittedSlow : kTermsFitted;
-    const bool no_gap = gives_rather_than_plays(promises);
-    std::vector<Promise> chosen;
-    std::map<Term, std::size_t> starts;
-    for (const Promise& promise : promises) {
-      const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
-                                   kLeastShareOfBest * promises.front().log_likelihood_gain});
-      if (promise.log_likelihood_gain < bar) break;
-      if (two_masses(promise.term) &&
-          (effects_beyond_every_cart(base) >= kEffectsBeforeTwoMasses ||
-           promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain)) {
-        continue;
-      }
-      if (is_gap(promise) && no_gap) continue;
-      if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
-      // A second start is worth its time only where it promises nearly as much.
-      if (starts[promise.term] >= kStartsFitted) continue;
-      if (starts[promise.term] > 0 && !many_minima(promise.term)) continue;
-      ++starts[promise.term];
-      chosen.push_back(promise);
-    }
-    return chosen;
-  }
-
-  static bool many_minima(Term term) {
-    return two_masses(term) || term == Term::cogging || term == Term::encoder_eccentricity ||
-           term == Term::stribeck_friction || term == Term::position_dependent_friction ||
-           term == Term::presliding_friction;
   }
 
   std::optional<Explanation> lost_counts_on(const Explanation& base) const {
@@ -347,7 +279,7 @@ class Explainer {
   /// An effect found early may have stood in for a rival that does better beside what was found later. What
   /// every cart has stands in for nothing.
   void swap_stand_ins(Search& search) const {
-    if (slow(search.best)) return;
+    if (search.best.has_two_masses()) return;
     for (std::size_t i = 0; i + 1 < search.contests.size(); ++i) {
       Contest& contest = search.contests[i];
       if (every_cart_has(contest.chosen) || contest.chosen == Term::encoder_missed_counts) continue;
@@ -426,6 +358,19 @@ double Explanation::score() const {
 
 bool Explanation::has(Term term) const {
   return std::find(effects.begin(), effects.end(), term) != effects.end();
+}
+
+bool Explanation::has_two_masses() const {
+  return std::any_of(effects.begin(), effects.end(), two_masses);
+}
+
+std::size_t Explanation::effects_beyond_every_cart() const {
+  const auto others = std::count_if(effects.begin(), effects.end(), std::not_fn(every_cart_has));
+  return static_cast<std::size_t>(others);
+}
+
+bool every_cart_has(Term term) {
+  return term == Term::viscous_friction || term == Term::coulomb_friction || term == Term::constant_force;
 }
 
 Search explain(const Session& session, const Model& nominal, const SearchOptions& options) {

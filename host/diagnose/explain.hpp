@@ -17,7 +17,13 @@ struct Explanation {
   /// Log-likelihood less what its numbers cost.
   double score() const;
   bool has(Term term) const;
+  bool has_two_masses() const;
+  /// A nominal model may lack what every cart has; that it is found must not end the search for the rest.
+  std::size_t effects_beyond_every_cart() const;
 };
+
+/// Viscous and Coulomb friction, and a constant force.
+bool every_cart_has(Term term);
 
 /// What stood beside an effect when it was chosen.
 struct Contest {

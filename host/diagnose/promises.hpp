@@ -12,9 +12,6 @@ inline constexpr double kOutlierOverNoise = 6.0;
 /// Whether a term parts the cart into two masses; to fit one costs ten times the time of any other.
 bool two_masses(Term term);
 
-/// Two masses are fitted only where they promise to compete: at least this share of the best promise.
-inline constexpr double kLeastShareOfTwoMasses = 0.25;
-
 /// What every term of the vocabulary that `base` lacks promises: fixed starts (screen.hpp), periods and
 /// pushes (scan.hpp). Greatest promise first. Gaps and lost counts take more than a linear regression and are
 /// looked for apart.

@@ -5,6 +5,7 @@
 
 #include "host/diagnose/basis.hpp"
 #include "host/diagnose/promises.hpp"
+#include "host/diagnose/worth_fitting.hpp"
 
 namespace cartwright::blind {
 namespace {
