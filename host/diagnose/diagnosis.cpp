@@ -99,7 +99,7 @@ class Diagnostician {
     search.held = options_.held;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
     result_.search = explain(used, nominal_, search);
-    if (!held.empty() && has_its_own_push(used, held)) {
+    if (!held.empty() && shows_a_push(held)) {
       result_.remarks.push_back(
           fmt::format("{} holds something of its own, so it was used and nothing held out.",
                       session_.recordings[held.front()].file));
@@ -135,23 +135,16 @@ class Diagnostician {
     if (options_.progress) options_.progress(what, share);
   }
 
-  /// A push that happened only in the recording kept out would never be found without it. Where those used
-  /// show as much, it is no push but whatever has no name in all of them.
-  bool has_its_own_push(const Session& used, const std::vector<std::size_t>& held) const {
+  /// A push that happened only in the recording kept out would never be found without it.
+  bool shows_a_push(const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     if (best.has(Term::external_disturbance)) return false;
     const Session out = only(session_, held);
     FitOptions as_it_is = fit_options_;
     as_it_is.move_noise = false;
     const Fit here = fit(out, best.fit.model, best.fit.noise, {}, as_it_is);
-    const double unseen = most_push(out, here), seen = most_push(without_jumps(used, best.jumps), best.fit);
-    return unseen > std::max(2 * kLeastGain, seen);
-  }
-
-  /// What a push promises at most.
-  double most_push(const Session& session, const Fit& at) const {
-    const std::vector<Promise> promises = scan_pushes(session, at, facts_of(session), fit_options_);
-    return promises.empty() ? 0 : promises.front().log_likelihood_gain;
+    const std::vector<Promise> promises = scan_pushes(out, here, facts_of(out), as_it_is);
+    return !promises.empty() && promises.front().log_likelihood_gain > 2 * kLeastGain;
   }
 
   void judge(const Session& repaired) {
