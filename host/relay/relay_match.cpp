@@ -11,6 +11,8 @@ namespace {
 
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, kRelayValues>;
 
+constexpr double kExact = 1e-12;  // of an amplitude: what positions are exact to, after some thousand steps
+
 struct Window {
   std::size_t recording = 0;
   std::size_t first = 0, last = 0;
@@ -143,6 +145,7 @@ class Match {
         windows_.push_back(window);
         path += 4 * cycle.amplitude_m;
         time += cycle.period_s;
+        rounding_ += static_cast<double>(cycle.last - cycle.first) * std::pow(kExact * cycle.amplitude_m, 2);
       }
     }
     speed_ = path / time;
@@ -226,7 +229,7 @@ class Match {
           windows_ = std::move(next);
         }
       }
-      if (!lower || fall < 1e-9 * now) return values_.allFinite();
+      if (!lower || fall < 1e-9 * now || now < rounding_) return values_.allFinite();
     }
     return false;
   }
@@ -247,6 +250,7 @@ class Match {
   std::vector<double> weights_;
   Eigen::Vector4d values_;
   double speed_ = 1;
+  double rounding_ = 0;  ///< a cost that is only rounding; below it every step finds some of it to remove
   bool coulomb_held_ = false;
 };
 
