@@ -32,8 +32,9 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     }
   }
   for (const NominalParameter& p : d.parameters) {
-    fmt::print("  {}: nominal {:.5g}, found {:.5g} [{:.5g}, {:.5g}]\n", dotted_name(p.id), p.nominal,
-               p.refitted.value, p.refitted.low, p.refitted.high);
+    const Estimate& e = p.refitted;
+    fmt::print("  {}: nominal {:.5g}, found {:.5g} {}\n", dotted_name(p.id), p.nominal, e.value,
+               e.has_interval() ? fmt::format("[{:.5g}, {:.5g}]", e.low, e.high) : "(not told by this data)");
   }
   fmt::print("  {}\n", statement_of_windows(d));
   if (d.unexplained) {

@@ -11,11 +11,13 @@
 #include "host/diagnose/further_push.hpp"
 #include "host/diagnose/held_out.hpp"
 #include "host/diagnose/lost_counts.hpp"
+#include "host/diagnose/name_from_drive.hpp"
 #include "host/diagnose/prediction_errors.hpp"
 #include "host/diagnose/predicts_no_better.hpp"
 #include "host/diagnose/remarks.hpp"
 #include "host/diagnose/statement.hpp"
 #include "host/diagnose/surrogate.hpp"
+#include "host/diagnose/where.hpp"
 #include "host/statistics/distributions.hpp"
 
 namespace cartwright {
@@ -41,32 +43,6 @@ constexpr std::size_t kPeriodsTold = 3;
 
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
-}
-
-/// Gain of the structure that a location map still shows, in nats.
-double structure_left(const Location& location) {
-  double most = 0;
-  for (const AxisMap& map : location.axes) {
-    if (!map.flat()) most = std::max(most, map.gain);
-  }
-  const Profile& over_frequency = location.over_frequency;
-  if (!over_frequency.flat()) {
-    const double looks = static_cast<double>(over_frequency.at.size());
-    most = std::max(most, over_frequency.value[over_frequency.strongest()] - std::log(looks));
-  }
-  return most;
-}
-
-Where where_of(const Location& location) {
-  Where where{{"time_s", {}},    {"position_m", {}},   {"velocity_m_per_s", {}},
-              {"voltage_V", {}}, {"frequency_hz", {}}, {"after_reversal_m", {}}};
-  for (const AxisMap& map : location.axes) {
-    if (map.flat() || !where.contains(map.axis)) continue;
-    if (const auto stretch = map.stretch(); !stretch.empty()) where[map.axis] = stretch;
-  }
-  const Profile& over_frequency = location.over_frequency;
-  if (!over_frequency.flat()) where["frequency_hz"].assign(2, over_frequency.at[over_frequency.strongest()]);
-  return where;
 }
 
 /// How sure one explanation is to be better than another.
@@ -124,6 +100,7 @@ class Diagnostician {
     name_effects(used);
     name_parameters();
     propose(used);
+    if (drive_only_balances_ && result_.verdict == Verdict::unexplained) read_the_drive(used, held);
     const std::vector<std::string> said = remarks(session_, nominal_, options_.held, result_);
     result_.remarks.insert(result_.remarks.end(), said.begin(), said.end());
     report("done", 1);
@@ -154,6 +131,7 @@ class Diagnostician {
     const double of_likelihood = left > 0 ? left / (left + gained) : 0;
     const double of_windows = left > 0 ? window_share_left() : 0;
     std::string why_refused = predicts_no_better(result_, windows_used_, windows_unseen_);
+    drive_only_balances_ = result_.used.with_effects > result_.uniform_motion_m;
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
     const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
     if (why_refused.empty() && (of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood))
@@ -173,6 +151,27 @@ class Diagnostician {
     } else {
       result_.verdict = values_changed() ? Verdict::parameters_only : Verdict::no_mismatch;
     }
+  }
+
+  /// What no prediction tells the drive itself may: it balances what pushes a cart that a servo moves evenly.
+  void read_the_drive(const Session& used, const std::vector<std::size_t>& held) {
+    report("reading the drive", 0.9);
+    const std::optional<DriveBalance> drive = drive_balance(used, options_.threads);
+    if (!drive || !names_cogging(*drive)) return;
+    name_from_drive(*drive, nominal_, result_);
+    result_.drive = drive;
+    result_.effects.front().where = where_of(result_.before);
+    result_.used.with_effects = window_rmse_m(result_.model, used, options_.threads);
+    if (!held.empty())
+      result_.held_out.with_effects = window_rmse_m(result_.model, only(session_, held), options_.threads);
+    const Fit as_it_is = fit(used, result_.model, result_.search.best.fit.noise, {}, fit_options_);
+    result_.after = locate(used, as_it_is, fit_options_, options_.threads);
+    describe_left_over(drive->share_left(), "");
+    result_.unexplained->closest.reset();
+    result_.unexplained->periods_m.clear();
+    for (std::size_t i = drive->held; i < drive->lines.size(); ++i)
+      result_.unexplained->periods_m.push_back(drive->lines[i].period_m.value);
+    result_.remarks.push_back(statement_of_drive(*drive));
   }
 
   double window_share_left() const {
@@ -353,6 +352,7 @@ class Diagnostician {
   Diagnosis result_;
   WindowErrors windows_used_, windows_unseen_;
   double held_floor_m_ = 0;
+  bool drive_only_balances_ = false;
 };
 
 }  // namespace

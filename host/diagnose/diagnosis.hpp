@@ -1,26 +1,23 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/diagnose/confidence.hpp"
+#include "host/diagnose/drive_balance.hpp"
 #include "host/diagnose/explain.hpp"
 #include "host/diagnose/locate.hpp"
 #include "host/diagnose/next_experiment.hpp"
+#include "host/diagnose/where.hpp"
 #include "host/statistics/estimate.hpp"
 
 namespace cartwright {
 
 enum class Verdict { no_mismatch, parameters_only, missing_physics, unexplained };
 std::string_view name(Verdict verdict);
-
-/// Axis name to the widest stretch [low, high] on which the missing push stands outside its band; empty:
-/// flat.
-using Where = std::map<std::string, std::vector<double>>;
 
 struct Effect {
   Term term;
@@ -76,10 +73,11 @@ struct Diagnosis {
   std::vector<std::string> held_out_recordings;
   std::optional<Unexplained> unexplained;
   std::optional<NextExperiment> next_experiment;
-  Model model;                       ///< nominal terms refitted, with the effects
-  Model refitted;                    ///< nominal terms refitted alone
-  Location before, after;            ///< of the refitted nominal model; of the final one
-  std::vector<std::string> remarks;  ///< what the data cannot support, in words
+  std::optional<DriveBalance> drive;  ///< what the effect was read from, where a servo holds the speed
+  Model model;                        ///< nominal terms refitted, with the effects
+  Model refitted;                     ///< nominal terms refitted alone
+  Location before, after;             ///< of the refitted nominal model; of the final one
+  std::vector<std::string> remarks;   ///< what the data cannot support, in words
   Search search;
 };
 

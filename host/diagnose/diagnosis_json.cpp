@@ -112,6 +112,21 @@ Json unexplained_json(const std::optional<Unexplained>& left) {
           {"why_refused", left->why_refused}};
 }
 
+Json drive_json(const std::optional<DriveBalance>& drive) {
+  if (!drive) return nullptr;
+  Json lines = Json::array();
+  for (const DriveLine& line : drive->lines) {
+    lines.push_back({{"period_m", interval(line.period_m)},
+                     {"height_V", interval(line.height_V)},
+                     {"gain_nats", number(line.gain)}});
+  }
+  return {{"lines", lines},
+          {"rms_V", {{"friction", number(drive->missing_V)}, {"with_lines", number(drive->left_V)}}},
+          {"unseen_quarters_rms_V",
+           {{"friction", number(drive->unseen_missing_V)}, {"with_lines", number(drive->unseen_left_V)}}},
+          {"line_over_time_behind_nats", number(drive->time_behind)}};
+}
+
 }  // namespace
 
 std::string to_json(const Diagnosis& d) {
@@ -151,6 +166,7 @@ std::string to_json(const Diagnosis& d) {
                                {"chance", number(d.next_experiment->chance)}};
   }
   json["location"] = {{"before", location_json(d.before)}, {"after", location_json(d.after)}};
+  json["drive_of_held_speed"] = drive_json(d.drive);
   json["remarks"] = d.remarks;
   return json.dump(2) + "\n";
 }

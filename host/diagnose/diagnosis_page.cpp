@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/diagnose/drive_page.hpp"
 #include "host/diagnose/location_page.hpp"
+#include "host/diagnose/name_from_drive.hpp"
 #include "host/diagnose/statement.hpp"
 #include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/replay.hpp"
@@ -33,7 +35,7 @@ std::string typeset(std::string text) {
 }
 
 void verdict(Report& page, const Diagnosis& d) {
-  std::string detail = typeset(statement_of_windows(d));
+  const std::string detail = typeset(d.drive ? statement_of_lines(*d.drive) : statement_of_windows(d));
   switch (d.verdict) {
     case Verdict::no_mismatch:
       page.verdict(Tone::good, "The model fits: nothing beyond noise.", detail);
@@ -151,6 +153,7 @@ void better(Report& page, const Diagnosis& d, const Session& session, const Mode
     row("held out of everything: " + held, "closed loop", d.held_out_closed_loop, Cell(""));
   }
   page.table(table);
+  if (d.drive) add_drive(page, *d.drive, session);
   const auto shown = std::find_if(
       session.recordings.begin(), session.recordings.end(),
       [&](const Recording& r) { return held.empty() || r.file == d.held_out_recordings.front(); });
@@ -177,6 +180,12 @@ void what_else(Report& page, const Diagnosis& d) {
                   Cell::number(other.score_behind, 3), Cell::number(other.confidence, 2)});
     }
     page.table(others);
+  } else if (d.drive) {
+    page.paragraph(fmt::format(
+        "The best line of the drive over time, in the place of the best over the way, is {:.3g} nats behind. "
+        "Other effects are not compared: they show in accelerations, and a servo that holds the speed leaves "
+        "none.",
+        d.drive->time_behind));
   } else {
     page.paragraph("No other effect was promising enough to be fitted.");
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -99,21 +100,25 @@ TEST_F(Rigs, TheCoggingOfABrushlessMotorIsNamedWithItsPeriod) {
   EXPECT_NEAR(d.model[P::cogging_amplitude] / d.model[P::voltage_gain], 0.9, 0.2);
 }
 
-/// The same motor turned slowly by a servo: the current only balances what cogs and rubs. Seven periods a
-/// revolution stand above chance, but no force predicts more than that the speed stays.
-TEST_F(Rigs, AServoThatHoldsItsSpeedGetsNoNameButAPeriod) {
-  const auto data = session("odrive_cogging", "odrive_cogging.toml", {"slow2_nocomp_0.mat"});
-  const auto fast = session("odrive_cogging", "odrive_spinup.toml", {"accel_tests_spinup_4_nocomp.mat"});
-  if (!data || !fast) GTEST_SKIP() << "no odrive_cogging recordings; set CARTWRIGHT_RECORDINGS";
-  DiagnoseOptions options;
-  options.held = {P::voltage_gain, P::viscous_coefficient};
-  const Diagnosis d =
-      diagnose(*data, identified(*fast, {Term::viscous_friction, Term::coulomb_friction}), options);
-  EXPECT_EQ(name(d.verdict), "unexplained");
-  ASSERT_TRUE(d.unexplained.has_value());
-  ASSERT_FALSE(d.unexplained->periods_m.empty());
-  const double resolved = 1.0;  // of a way of one revolution [periods a revolution]
-  EXPECT_NEAR(1 / d.unexplained->periods_m.front(), 7, 0.5 * resolved);
+/// The same motor turned slowly by a servo: the current only balances what cogs and rubs, no force predicts more
+/// than that the speed stays, and the periods are read from the current. Published: 7, 14 and 28 a revolution.
+TEST_F(Rigs, TheCurrentOfAServoThatHoldsItsSpeedTellsAllThreePeriods) {
+  const auto data =
+      session("odrive_cogging", "odrive_cogging.toml", {"slow2_nocomp_0.mat", "slow2_nocomp_1.mat"});
+  if (!data) GTEST_SKIP() << "no odrive_cogging recordings; set CARTWRIGHT_RECORDINGS";
+  const Diagnosis d = diagnose(*data, identified(*data, {Term::viscous_friction, Term::coulomb_friction}));
+  EXPECT_EQ(name(d.verdict), "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects.front().term, Term::cogging);
+  std::vector<double> per_revolution;
+  for (const PeriodicTerm& wave : kCoggingWaves) per_revolution.push_back(1 / d.model[wave.period]);
+  std::sort(per_revolution.begin(), per_revolution.end());
+  EXPECT_NEAR(per_revolution[0], 7, 0.05);
+  EXPECT_NEAR(per_revolution[1], 14, 0.1);
+  EXPECT_NEAR(per_revolution[2], 28, 0.1);
+  ASSERT_TRUE(d.drive.has_value());
+  EXPECT_NEAR(d.drive->lines.front().height_V.value, 0.9, 0.2);  // published
+  EXPECT_LT(d.drive->unseen_left_V, 0.5 * d.drive->unseen_missing_V);
 }
 
 /// EMPS told only its inertia and viscous friction; half of one record at a fifth of its rate, to be quick.
