@@ -25,10 +25,18 @@ constexpr std::size_t kMostLines = 8;  // those that no model holds leave the er
 constexpr double kNumbersOfALine = 3;
 constexpr int kPolishings = 3;
 
+/// Columns that are the same but for rounding count as one: where the cart moves one way, direction and one.
+Eigen::ColPivHouseholderQR<MatrixXd> factored(const MatrixXd& columns) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(columns.rows(), columns.cols());
+  qr.setThreshold(1e-9);
+  qr.compute(columns);
+  return qr;
+}
+
 }  // namespace
 
 MatrixXd orthonormal(const MatrixXd& columns) {
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr = factored(columns);
   return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
@@ -90,7 +98,7 @@ MatrixXd DriveLines::columns(const std::vector<double>& lines) const {
 }
 
 VectorXd DriveLines::solution(const Rows& rows, const MatrixXd& x) const {
-  return Eigen::ColPivHouseholderQR<MatrixXd>(x(rows, Eigen::all)).solve(VectorXd(drive_(rows)));
+  return factored(x(rows, Eigen::all)).solve(VectorXd(drive_(rows)));
 }
 
 VectorXd DriveLines::errors(const Rows& rows, const MatrixXd& x) const {

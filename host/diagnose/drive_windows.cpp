@@ -8,6 +8,7 @@ namespace cartwright {
 namespace {
 
 constexpr double kWindow_s = 0.05;
+constexpr double kAroundAnEdge_s = 0.0125;
 constexpr double kGapInPeriods = 3;
 constexpr std::size_t kMostRowsLookedAt = 8;  // of a window, which is a quarter of a wave at most
 constexpr double kNearlyStands = 0.1;         // of the usual speed
@@ -20,6 +21,16 @@ bool has_gap(const Recording& r, std::size_t first, std::size_t last, double per
   return false;
 }
 
+/// Around one row.
+double speed_at(const Recording& r, std::size_t row) {
+  const auto at = [&](double t_s) {
+    const auto found = std::lower_bound(r.t_s.begin(), r.t_s.end(), t_s);
+    return std::min(static_cast<std::size_t>(found - r.t_s.begin()), r.size() - 1);
+  };
+  const std::size_t before = at(r.t_s[row] - kAroundAnEdge_s), after = at(r.t_s[row] + kAroundAnEdge_s);
+  return (r.y_m[after] - r.y_m[before]) / (r.t_s[after] - r.t_s[before]);
+}
+
 DriveWindow means(const Recording& r, std::size_t recording, std::size_t first, std::size_t last) {
   DriveWindow window{recording, first, last};
   for (std::size_t k = first; k < last; ++k) {
@@ -27,7 +38,9 @@ DriveWindow means(const Recording& r, std::size_t recording, std::size_t first, 
     window.drive_V += share * r.u_V[k];
     window.position_m += share * r.y_m[k];
   }
-  window.speed_m_per_s = (r.y_m[last] - r.y_m[first]) / (r.t_s[last] - r.t_s[first]);
+  const double length_s = r.t_s[last] - r.t_s[first];
+  window.speed_m_per_s = (r.y_m[last] - r.y_m[first]) / length_s;
+  window.acceleration_m_per_s2 = (speed_at(r, last) - speed_at(r, first)) / length_s;
   return window;
 }
 
@@ -70,17 +83,12 @@ std::vector<DriveWindow> drive_windows(const Session& session) {
     const double speed = std::abs(w.speed_m_per_s), own = usual[w.recording];
     return speed > kNearlyStands * own && speed < kThrown * own;
   };
+  const auto beside = [&](const DriveWindow& a, const DriveWindow& b) {
+    return a.recording == b.recording && a.last == b.first && keeps_speed(a) && keeps_speed(b);
+  };
   std::vector<DriveWindow> kept;
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {
-    const DriveWindow &before = all[i - 1], &after = all[i + 1];
-    if (before.last != all[i].first || after.first != all[i].last || before.recording != after.recording)
-      continue;
-    if (!keeps_speed(before) || !keeps_speed(all[i]) || !keeps_speed(after)) continue;
-    kept.push_back(all[i]);
-    const Recording& r = session.recordings[all[i].recording];
-    const double apart_s =
-        0.5 * (r.t_s[after.first] + r.t_s[after.last] - r.t_s[before.first] - r.t_s[before.last]);
-    kept.back().acceleration_m_per_s2 = (after.speed_m_per_s - before.speed_m_per_s) / apart_s;
+    if (beside(all[i - 1], all[i]) && beside(all[i], all[i + 1])) kept.push_back(all[i]);
   }
   return kept;
 }

@@ -14,7 +14,7 @@ struct DriveWindow {
   double drive_V = 0;               ///< the voltage held over each tick
   double position_m = 0;
   double speed_m_per_s = 0;
-  double acceleration_m_per_s2 = 0;  ///< from the speeds of its neighbours
+  double acceleration_m_per_s2 = 0;  ///< from the speeds around its first row and its last
 };
 
 /// The windows of 50 ms in which the cart keeps moving at about its usual speed. Left out are those across a

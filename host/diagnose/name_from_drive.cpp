@@ -33,7 +33,7 @@ void set_friction(const DriveBalance& drive, Model& model) {
 }  // namespace
 
 bool names_cogging(const DriveBalance& drive) {
-  return drive.share_left() <= kMostLeft && drive.time_behind > -kClearlyBehind;
+  return drive.share_left() <= kMostLeft;
 }
 
 void name_from_drive(const DriveBalance& drive, const Model& nominal, Diagnosis& d) {

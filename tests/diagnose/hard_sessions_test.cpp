@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "host/diagnose/diagnosis.hpp"
@@ -65,26 +67,23 @@ TEST(HardSessions, ANominalModelThatIsWildlyOffIsOnlyOff) {
   EXPECT_NEAR(d.model[P::coulomb_level], 0.4, 0.01);
 }
 
-/// A motor that cogs, turned at 30 mm/s by a servo, whose current is reported late and with noise: the forces
-/// nearly balance, and what is known of them predicts less than that the speed stays.
-Recording slow_servo(double duration_s) {
+/// A motor turned at 30 mm/s by a servo, whose current is reported late and with noise: the forces nearly
+/// balance, and what is known of them predicts less than that the speed stays.
+Session slow_servo(const std::function<double(double y_m)>& push_m_per_s2) {
   constexpr double kStep_s = 1e-4, kRate_per_s = 500, kSpeed_m_per_s = 0.03, kGain = 40, kFriction = 7;
-  const auto cogging = [](double y) {
-    double push = 0;
-    for (int n = 1; n <= 6; ++n) push += 30.0 / n * std::sin(2 * M_PI * n * y / 0.03 + n * n);
-    return push;
-  };
+  constexpr double kDuration_s = 8;
   Recording r;
   r.file = "slow.csv";
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise;
   double y = 0, v = kSpeed_m_per_s, integral_A = 0;
   std::vector<double> current_A;
-  for (std::size_t step = 0; static_cast<double>(step) * kStep_s < duration_s; ++step) {
+  for (std::size_t step = 0; static_cast<double>(step) * kStep_s < kDuration_s; ++step) {
     const double error = kSpeed_m_per_s - v;
     integral_A = std::clamp(integral_A + 200 * error * kStep_s, -3.0, 3.0);
     current_A.push_back(5 * error + integral_A);
-    v += kStep_s * (kGain * current_A.back() + cogging(y) - std::copysign(kFriction, v) + 20 * noise(random));
+    v += kStep_s *
+         (kGain * current_A.back() + push_m_per_s2(y) - std::copysign(kFriction, v) + 20 * noise(random));
     y += kStep_s * v;
     const auto row = static_cast<std::size_t>(std::lround(1 / (kRate_per_s * kStep_s)));
     if (step % row != 0) continue;
@@ -92,18 +91,49 @@ Recording slow_servo(double duration_s) {
     r.y_m.push_back(y + 5e-5 * noise(random));
     r.u_V.push_back(current_A[step - std::min<std::size_t>(step, 40)] + 0.03 * noise(random));
   }
-  return r;
+  Session session;
+  session.rig.sample_rate_hz = kRate_per_s;
+  session.rig.encoder_resolution_m = 1e-5;
+  session.recordings = {std::move(r)};
+  return session;
+}
+
+Diagnosis diagnosis_of_slow(const Session& session) {
+  DiagnoseOptions options;
+  options.held = {P::voltage_gain};
+  return diagnose(session, Model(40).set(P::viscous_coefficient, 0).set(P::coulomb_level, 10), options);
+}
+
+TEST(HardSessions, TheDriveOfAServoThatHoldsTheSpeedTellsTheCogging) {
+  const Diagnosis d = diagnosis_of_slow(slow_servo([](double y) {
+    double push = 0;
+    for (int n = 1; n <= 6; ++n) push += 15.0 / n * std::sin(2 * M_PI * n * y / 0.03 + n * n);
+    return push;
+  }));
+  EXPECT_EQ(name(d.verdict), "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects.front().term, Term::cogging);
+  for (const std::size_t n : {1U, 2U}) {
+    const PeriodicTerm& wave = kCoggingWaves[n - 1];
+    EXPECT_NEAR(d.model[wave.period] * static_cast<double>(n), 0.03, 1e-4);
+    EXPECT_NEAR(d.model[wave.amplitude] * static_cast<double>(n), 15, 1.5);
+    EXPECT_GT(std::cos(d.model[wave.phase] - static_cast<double>(n * n)), 0.95);
+  }
+  EXPECT_NEAR(d.model[P::coulomb_level], 7, 2);
+  EXPECT_TRUE(std::isnan(d.parameters.front().refitted.low));  // of the gain nothing is told
 }
 
 TEST(HardSessions, ForcesThatPredictLessThanAnUnchangedSpeedGetNoName) {
-  Session session;
-  session.rig.sample_rate_hz = 500;
-  session.rig.encoder_resolution_m = 1e-5;
-  session.recordings = {slow_servo(8)};
-  DiagnoseOptions options;
-  options.held = {P::voltage_gain};
-  const Diagnosis d =
-      diagnose(session, Model(40).set(P::viscous_coefficient, 0).set(P::coulomb_level, 10), options);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::array<double, 50> bumps{};
+  for (double& height : bumps) height = 20 * normal(random);
+  const Diagnosis d = diagnosis_of_slow(slow_servo([&](double y) {
+    double push = 0;
+    for (std::size_t i = 0; i < bumps.size(); ++i)
+      push += bumps[i] * std::exp(-0.5 * std::pow((y - 0.005 * static_cast<double>(i)) / 0.003, 2));
+    return push;
+  }));
   EXPECT_EQ(name(d.verdict), "unexplained");
   EXPECT_TRUE(d.effects.empty());
   ASSERT_TRUE(d.unexplained.has_value());

@@ -100,8 +100,9 @@ TEST_F(Rigs, TheCoggingOfABrushlessMotorIsNamedWithItsPeriod) {
   EXPECT_NEAR(d.model[P::cogging_amplitude] / d.model[P::voltage_gain], 0.9, 0.2);
 }
 
-/// The same motor turned slowly by a servo: the current only balances what cogs and rubs, no force predicts more
-/// than that the speed stays, and the periods are read from the current. Published: 7, 14 and 28 a revolution.
+/// The same motor turned slowly by a servo: the current only balances what cogs and rubs, no force predicts
+/// more than that the speed stays, and the periods are read from the current. Published: 7, 14 and 28 a
+/// revolution.
 TEST_F(Rigs, TheCurrentOfAServoThatHoldsItsSpeedTellsAllThreePeriods) {
   const auto data =
       session("odrive_cogging", "odrive_cogging.toml", {"slow2_nocomp_0.mat", "slow2_nocomp_1.mat"});
