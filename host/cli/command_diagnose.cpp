@@ -7,10 +7,10 @@
 #include "host/cli/command.hpp"
 #include "host/cli/progress.hpp"
 #include "host/diagnose/diagnosis.hpp"
-#include "host/diagnose/diagnosis_json.hpp"
-#include "host/diagnose/diagnosis_page.hpp"
-#include "host/diagnose/hygiene.hpp"
-#include "host/diagnose/statement.hpp"
+#include "host/diagnose/judge/hygiene.hpp"
+#include "host/diagnose/judge/statement.hpp"
+#include "host/diagnose/show/diagnosis_json.hpp"
+#include "host/diagnose/show/diagnosis_page.hpp"
 #include "host/session/files.hpp"
 
 namespace cartwright::cli {

@@ -7,17 +7,17 @@
 #include <numeric>
 #include <tuple>
 
-#include "host/diagnose/estimate.hpp"
-#include "host/diagnose/further_push.hpp"
-#include "host/diagnose/held_out.hpp"
-#include "host/diagnose/lost_counts.hpp"
-#include "host/diagnose/name_from_drive.hpp"
-#include "host/diagnose/prediction_errors.hpp"
-#include "host/diagnose/predicts_no_better.hpp"
-#include "host/diagnose/remarks.hpp"
-#include "host/diagnose/statement.hpp"
-#include "host/diagnose/surrogate.hpp"
-#include "host/diagnose/where.hpp"
+#include "host/diagnose/judge/estimate.hpp"
+#include "host/diagnose/judge/further_push.hpp"
+#include "host/diagnose/judge/held_out.hpp"
+#include "host/diagnose/judge/name_from_drive.hpp"
+#include "host/diagnose/judge/prediction_errors.hpp"
+#include "host/diagnose/judge/predicts_no_better.hpp"
+#include "host/diagnose/judge/remarks.hpp"
+#include "host/diagnose/judge/statement.hpp"
+#include "host/diagnose/judge/surrogate.hpp"
+#include "host/diagnose/locate/where.hpp"
+#include "host/diagnose/search/lost_counts.hpp"
 #include "host/statistics/distributions.hpp"
 
 namespace cartwright {

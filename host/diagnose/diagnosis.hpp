@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "host/diagnose/confidence.hpp"
-#include "host/diagnose/drive_balance.hpp"
-#include "host/diagnose/explain.hpp"
-#include "host/diagnose/locate.hpp"
-#include "host/diagnose/next_experiment.hpp"
-#include "host/diagnose/where.hpp"
+#include "host/diagnose/drive/drive_balance.hpp"
+#include "host/diagnose/judge/confidence.hpp"
+#include "host/diagnose/judge/next_experiment.hpp"
+#include "host/diagnose/locate/locate.hpp"
+#include "host/diagnose/locate/where.hpp"
+#include "host/diagnose/search/explain.hpp"
 #include "host/statistics/estimate.hpp"
 
 namespace cartwright {

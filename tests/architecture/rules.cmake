@@ -1,5 +1,9 @@
 # architecture_violations(<variable> <root>): one line for every broken rule.
 
+# The rooms of the diagnosis stand one upon the other: observe, fit, locate, search, drive; judge and show see all.
+set(beside_diagnose "common/ host/session/ host/statistics/ host/parallel.hpp")
+set(below_drive "host/diagnose/observe/ host/diagnose/fit/ host/diagnose/locate/ host/diagnose/search/")
+
 # folder | what it may include. The first folder that fits a file counts.
 set(include_rules
   "firmware/main.cpp|common/ hal/ firmware/"
@@ -7,6 +11,11 @@ set(include_rules
   "hal/interface/|common/ hal/interface/"
   "hal/|common/ hal/"
   "firmware/|common/ hal/interface/ firmware/"
+  "host/diagnose/observe/|${beside_diagnose} host/diagnose/observe/"
+  "host/diagnose/fit/|${beside_diagnose} host/diagnose/observe/ host/diagnose/fit/"
+  "host/diagnose/locate/|${beside_diagnose} host/diagnose/observe/ host/diagnose/fit/ host/diagnose/locate/"
+  "host/diagnose/search/|${beside_diagnose} ${below_drive}"
+  "host/diagnose/drive/|${beside_diagnose} ${below_drive} host/diagnose/drive/"
   "host/|common/ host/"
   "tests/blind/cart|tests/blind/"
   "tests/blind/concealed|tests/blind/"

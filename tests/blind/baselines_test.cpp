@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "host/diagnose/held_out.hpp"
+#include "host/diagnose/judge/held_out.hpp"
 #include "tests/blind/baselines/rules.hpp"
 #include "tests/blind/baselines/sparse.hpp"
 #include "tests/blind/baselines/stlsq.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/diagnose/surrogate.hpp"
+#include "host/diagnose/judge/surrogate.hpp"
 #include "tests/blind/baselines/one_round.hpp"
 
 namespace cartwright::blind {

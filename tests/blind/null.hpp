@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/diagnose/explain.hpp"
+#include "host/diagnose/search/explain.hpp"
 
 namespace cartwright::blind {
 

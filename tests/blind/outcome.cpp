@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/judge/prediction_errors.hpp"
 #include "host/session/files.hpp"
 #include "tests/blind/baselines/baselines.hpp"
 #include "tests/blind/battery.hpp"

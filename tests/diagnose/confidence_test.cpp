@@ -1,4 +1,4 @@
-#include "host/diagnose/confidence.hpp"
+#include "host/diagnose/judge/confidence.hpp"
 
 #include <gtest/gtest.h>
 

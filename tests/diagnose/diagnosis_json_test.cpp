@@ -1,4 +1,4 @@
-#include "host/diagnose/diagnosis_json.hpp"
+#include "host/diagnose/show/diagnosis_json.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // What the drive tells where a servo holds the speed. The drives are made of formulas, not by simulating a
 // servo.
 
-#include "host/diagnose/drive_balance.hpp"
+#include "host/diagnose/drive/drive_balance.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "host/diagnose/name_from_drive.hpp"
+#include "host/diagnose/judge/name_from_drive.hpp"
 
 namespace cartwright {
 namespace {

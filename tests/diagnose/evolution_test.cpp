@@ -1,4 +1,4 @@
-#include "host/diagnose/evolution.hpp"
+#include "host/diagnose/search/evolution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/diagnose/hygiene.hpp"
+#include "host/diagnose/judge/hygiene.hpp"
 
 #include <gmock/gmock.h>
 

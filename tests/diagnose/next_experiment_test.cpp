@@ -1,4 +1,4 @@
-#include "host/diagnose/next_experiment.hpp"
+#include "host/diagnose/judge/next_experiment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/diagnose/observer.hpp"
+#include "host/diagnose/observe/observer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "host/diagnose/predicts_no_better.hpp"
+#include "host/diagnose/judge/predicts_no_better.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/judge/prediction_errors.hpp"
 #include "tests/diagnose/independent_cart.hpp"
 
 namespace cartwright {

@@ -1,10 +1,10 @@
-#include "host/diagnose/profile.hpp"
+#include "host/diagnose/locate/profile.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/diagnose/basis.hpp"
+#include "host/diagnose/fit/basis.hpp"
 #include "tests/diagnose/independent_cart.hpp"
 
 namespace cartwright {

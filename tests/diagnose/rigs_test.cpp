@@ -9,7 +9,7 @@
 
 #include "common/config/model_toml.hpp"
 #include "host/diagnose/diagnosis.hpp"
-#include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/judge/prediction_errors.hpp"
 #include "host/identify/identify.hpp"
 #include "host/session/even_rows.hpp"
 #include "host/session/files.hpp"

@@ -1,4 +1,4 @@
-#include "host/diagnose/two_mass_gain.hpp"
+#include "host/diagnose/observe/two_mass_gain.hpp"
 
 #include <gtest/gtest.h>
 

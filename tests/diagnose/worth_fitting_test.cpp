@@ -1,4 +1,4 @@
-#include "host/diagnose/worth_fitting.hpp"
+#include "host/diagnose/search/worth_fitting.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/diagnose/candidates.hpp"
+#include "host/diagnose/fit/candidates.hpp"
 
 namespace cartwright::blind {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "host/diagnose/basis.hpp"
-#include "host/diagnose/promises.hpp"
-#include "host/diagnose/worth_fitting.hpp"
+#include "host/diagnose/fit/basis.hpp"
+#include "host/diagnose/search/promises.hpp"
+#include "host/diagnose/search/worth_fitting.hpp"
 
 namespace cartwright::blind {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/diagnose/explain.hpp"
+#include "host/diagnose/search/explain.hpp"
 
 namespace cartwright::blind {
 

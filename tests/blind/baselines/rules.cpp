@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "host/diagnose/held_out.hpp"
-#include "host/diagnose/prediction_errors.hpp"
+#include "host/diagnose/judge/held_out.hpp"
+#include "host/diagnose/judge/prediction_errors.hpp"
 
 namespace cartwright::blind {
 namespace {

@@ -1,0 +1,29 @@
+#include "host/diagnose/fit/basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cartwright {
+
+Basis basis_of(const Fit& fit, double outlier_m) {
+  const auto rows = static_cast<Eigen::Index>(fit.error_m.size());
+  Basis basis;
+  basis.e = Eigen::Map<const Eigen::VectorXd>(fit.error_m.data(), rows);
+  if (outlier_m > 0) basis.e = basis.e.cwiseMin(outlier_m).cwiseMax(-outlier_m);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.jacobian);
+  basis.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
+  basis.project_out(basis.e);
+  basis.variance_m2 = basis.e.squaredNorm() / static_cast<double>(rows);
+  return basis;
+}
+
+double robust_size(const std::vector<double>& errors) {
+  std::vector<double> sizes;
+  sizes.reserve(errors.size());
+  for (const double e : errors) sizes.push_back(std::abs(e));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * *middle;
+}
+
+}  // namespace cartwright

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "host/diagnose/fit/fit.hpp"
+
+namespace cartwright {
+
+/// What a fit's own numbers can explain, and the errors they cannot. Regressions for something the model
+/// lacks project their columns out of it first: the model's numbers are then refitted alongside.
+struct Basis {
+  Eigen::MatrixXd q;       ///< orthonormal columns that span the fit's Jacobian
+  Eigen::VectorXd e;       ///< counted errors, outliers clipped, less what `q` explains [m]
+  double variance_m2 = 0;  ///< mean square of `e`
+
+  /// Takes out of vectors or columns what the fit's own numbers explain.
+  template <typename Columns>
+  void project_out(Columns& columns) const {
+    columns -= q * (q.transpose() * columns);
+  }
+};
+
+Basis basis_of(const Fit& fit, double outlier_m);
+
+/// Standard deviation of a normal variable from the median size of `errors`, which outliers do not move.
+double robust_size(const std::vector<double>& errors);
+
+}  // namespace cartwright

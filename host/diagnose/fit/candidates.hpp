@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "host/diagnose/fit/fit.hpp"
+
+namespace cartwright {
+
+/// What a session excites; start values and ranges of the candidates are set by it, never by guesses about
+/// the cart.
+struct SessionFacts {
+  double count_m = 0;  ///< of the encoder; 0 where it is not known
+  double position_low_m = 0, position_high_m = 0;
+  double most_voltage_V = 0;      ///< 99.9th percentile of |u|
+  double typical_voltage_V = 0;   ///< root mean square
+  double most_speed_m_per_s = 0;  ///< 99th percentile of the smoothed speed
+  double typical_speed_m_per_s = 0;
+  double longest_recording_s = 0;
+  double travel_m() const { return position_high_m - position_low_m; }
+};
+SessionFacts facts_of(const Session& session);
+
+/// Physics that may have been left out: which numbers would be free and where to start them.
+struct Candidate {
+  Term term;
+  std::vector<FreeParameter> free;  ///< of this term
+  std::vector<std::vector<std::pair<Parameter, double>>> starts;
+};
+
+/// The free numbers of the terms a model already has.
+std::vector<FreeParameter> free_parameters(const Model& model, const SessionFacts& facts);
+
+/// How a number of the vocabulary moves in a fit.
+FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, const Model& model);
+
+/// Every term of the vocabulary that `model` lacks and that a fit from fixed start values can find. Periodic
+/// effects, pushes and lost counts start from scans of the errors instead (scan.hpp).
+std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts);
+
+/// `model` with a candidate's start values set.
+Model with_start(Model model, const std::vector<std::pair<Parameter, double>>& start);
+
+}  // namespace cartwright

@@ -1,0 +1,309 @@
+#include "host/diagnose/fit/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/parallel.hpp"
+
+namespace cartwright {
+namespace {
+
+/// Where the fit is: physics and noise, and what they predict.
+struct Point {
+  Model model;
+  NoiseModel noise;
+  std::vector<double> errors;
+  double value = 0;         // log-likelihood
+  Eigen::MatrixXd columns;  // de/dp here; empty until asked for
+};
+
+constexpr double kMostLogStep = 1.0;  // of a logarithmic parameter in one iteration
+
+double loss(double error, double outlier) {
+  const double size = std::abs(error);
+  return outlier <= 0 || size <= outlier ? error * error : outlier * (2 * size - outlier);
+}
+
+double loss_slope_half(double error, double outlier) {
+  return outlier <= 0 ? error : std::clamp(error, -outlier, outlier);
+}
+
+NoiseModel bounded(NoiseModel noise) {
+  noise.correlation_time_s = std::clamp(noise.correlation_time_s, NoiseModel::kShortestCorrelation_s,
+                                        NoiseModel::kLongestCorrelation_s);
+  noise.disturbance_per_reading_per_s2 = std::clamp(noise.disturbance_per_reading_per_s2, 1e1, 1e8);
+  return noise;
+}
+
+class Fitter {
+ public:
+  Fitter(const Session& session, const std::vector<FreeParameter>& free, const FitOptions& options)
+      : session_(session), free_(free), options_(options) {}
+
+  void evaluate(Point& at) const {
+    at.errors = counted_errors(session_, at.model, at.noise, options_);
+    at.value = log_likelihood(at.errors, options_.outlier_m);
+  }
+
+  Fit run(const Model& start, const NoiseModel& noise) const {
+    Point at{start, bounded(noise), {}, 0, {}};
+    evaluate(at);
+    bool converged = false;
+    for (int round = 0; round < options_.most_rounds && !converged; ++round) {
+      const double before = at.value;
+      improve_physics(at);
+      if (options_.move_noise) improve_noise(at, round == 0 ? 0.5 : 0.2);
+      converged = !options_.move_noise || at.value - before < options_.tolerance;
+    }
+    return finish(std::move(at), converged);
+  }
+
+  /// Compass search along and across the ridge of equal disturbance power, ratio^2 tau.
+  void improve_noise(Point& at, double step) const {
+    const double directions[4][2] = {{1, 0}, {-1, 0}, {-0.5, 1}, {0.5, -1}};
+    while (step > options_.finest_noise_step) {
+      bool improved = false;
+      for (const auto& direction : directions) {
+        Point there{at.model, at.noise, {}, 0, {}};
+        there.noise.disturbance_per_reading_per_s2 *= std::exp(step * direction[0]);
+        there.noise.correlation_time_s *= std::exp(2 * step * direction[1]);
+        there.noise = bounded(there.noise);
+        evaluate(there);
+        if (there.value > at.value + 0.25 * options_.tolerance) {
+          at = std::move(there);
+          improved = true;
+        }
+      }
+      if (!improved) step *= 0.4;
+    }
+  }
+
+ private:
+  const Eigen::MatrixXd& jacobian(Point& at) const {
+    const auto rows = static_cast<Eigen::Index>(at.errors.size());
+    if (at.columns.rows() == rows) return at.columns;
+    Eigen::MatrixXd& columns = at.columns;
+    columns = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(free_.size()));
+    const Eigen::Map<const Eigen::VectorXd> base(at.errors.data(), rows);
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      const FreeParameter& p = free_[i];
+      const double here = at.model[p.id];
+      double step = options_.difference_step * (p.logarithmic ? here : std::max(p.scale, std::abs(here)));
+      if (here + step > p.upper) step = -step;
+      Model there = at.model;
+      there.set(p.id, here + step);
+      const std::vector<double> e = counted_errors(session_, there, at.noise, options_);
+      columns.col(static_cast<Eigen::Index>(i)) =
+          (Eigen::Map<const Eigen::VectorXd>(e.data(), rows) - base) / step;
+    }
+    return at.columns;
+  }
+
+  void improve_physics(Point& at) const {
+    double damping = 1e-3;
+    const auto n = static_cast<Eigen::Index>(free_.size());
+    for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+      Eigen::MatrixXd columns = jacobian(at);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const FreeParameter& p = free_[static_cast<std::size_t>(i)];
+        if (p.logarithmic) columns.col(i) *= at.model[p.id];
+      }
+      Eigen::MatrixXd h;
+      Eigen::VectorXd g;
+      normal_equations(columns, at.errors, h, g);
+      // A parameter at its bound that the gradient pushes outward stays out of this step.
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const FreeParameter& p = free_[static_cast<std::size_t>(i)];
+        const double here = at.model[p.id];
+        if ((here <= p.lower && g[i] > 0) || (here >= p.upper && g[i] < 0) || h(i, i) <= 0) {
+          h.row(i).setZero();
+          h.col(i).setZero();
+          h(i, i) = 1;
+          g[i] = 0;
+        }
+      }
+      bool improved = false;
+      double gained = 0;
+      for (int attempt = 0; attempt < 5 && !improved; ++attempt) {
+        Eigen::MatrixXd damped = h;
+        damped.diagonal() *= 1 + damping;
+        const Eigen::VectorXd step = damped.ldlt().solve(-g);
+        Point there{at.model, at.noise, {}, 0, {}};
+        for (Eigen::Index i = 0; i < n; ++i) {
+          const FreeParameter& p = free_[static_cast<std::size_t>(i)];
+          const double here = at.model[p.id];
+          const double moved = p.logarithmic
+                                   ? here * std::exp(std::clamp(step[i], -kMostLogStep, kMostLogStep))
+                                   : here + step[i];
+          there.model.set(p.id, std::clamp(moved, p.lower, p.upper));
+        }
+        evaluate(there);
+        if (there.value > at.value) {
+          gained = there.value - at.value;
+          at = std::move(there);
+          damping = std::max(damping * 0.1, 1e-9);
+          improved = true;
+        } else {
+          damping = std::max(damping * 16, 1e-3);
+        }
+      }
+      if (!improved || gained < 0.5 * options_.tolerance) return;
+    }
+  }
+
+  void normal_equations(const Eigen::MatrixXd& columns, const std::vector<double>& e, Eigen::MatrixXd& h,
+                        Eigen::VectorXd& g) const {
+    Eigen::VectorXd slope(columns.rows()), weight = Eigen::VectorXd::Ones(columns.rows());
+    for (Eigen::Index k = 0; k < columns.rows(); ++k) {
+      const double error = e[static_cast<std::size_t>(k)];
+      slope[k] = loss_slope_half(error, options_.outlier_m);
+      if (slope[k] != error) weight[k] = slope[k] / error;
+    }
+    h = columns.transpose() * weight.asDiagonal() * columns;
+    g = columns.transpose() * slope;
+  }
+
+  Fit finish(Point at, bool converged) const {
+    Fit result;
+    const std::vector<double>& e = at.errors;
+    result.model = at.model;
+    result.noise = at.noise;
+    result.free = free_;
+    result.log_likelihood = at.value;
+    result.rows = e.size();
+    result.error_rms_m = std::exp(-at.value / static_cast<double>(e.size()));
+    result.converged = converged;
+    const Eigen::MatrixXd columns =
+        options_.covariance ? jacobian(at) : Eigen::MatrixXd(static_cast<Eigen::Index>(e.size()), 0);
+    Eigen::MatrixXd h, meat = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+    Eigen::VectorXd g;
+    normal_equations(columns, e, h, g);
+    std::size_t row = 0;
+    const auto block_rows = static_cast<std::size_t>(std::max(1.0, kBlock_s * session_.rig.sample_rate_hz));
+    const std::size_t skip = settling_rows(session_.rig);
+    for (const Recording& recording : session_.recordings) {
+      const std::size_t rows = recording.size() > skip ? recording.size() - skip : 0;
+      for (std::size_t begin = 0; begin < rows; begin += block_rows) {
+        const std::size_t end = std::min(begin + block_rows, rows);
+        Eigen::VectorXd score = Eigen::VectorXd::Zero(columns.cols());
+        double sum = 0;
+        for (std::size_t k = begin; k < end; ++k, ++row) {
+          score += loss_slope_half(e[row], options_.outlier_m) *
+                   columns.row(static_cast<Eigen::Index>(row)).transpose();
+          sum += loss(e[row], options_.outlier_m);
+        }
+        meat += score * score.transpose();
+        result.block_loss_m2.push_back(sum);
+      }
+    }
+    h.diagonal() += 1e-12 * h.diagonal() + Eigen::VectorXd::Constant(h.rows(), 1e-30);
+    const Eigen::MatrixXd inverse = h.ldlt().solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
+    result.covariance = inverse * meat * inverse;
+    // Few blocks know of a number that acts for a moment only, and their scores are too small once it is
+    // fitted: no variance is taken to be less than white noise would leave.
+    const double variance = result.error_rms_m * result.error_rms_m;
+    Eigen::VectorXd widen(columns.cols());
+    for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+      widen[i] =
+          std::sqrt(std::max(1.0, variance * inverse(i, i) / std::max(result.covariance(i, i), 1e-300)));
+    }
+    result.covariance = widen.asDiagonal() * result.covariance * widen.asDiagonal();
+    result.jacobian = columns;
+    result.error_m = std::move(at.errors);
+    return result;
+  }
+
+  const Session& session_;
+  const std::vector<FreeParameter>& free_;
+  const FitOptions& options_;
+};
+
+}  // namespace
+
+double Fit::standard_error(Parameter parameter) const {
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (free[i].id == parameter && at < covariance.rows())
+      return std::sqrt(std::max(covariance(at, at), 0.0));
+  }
+  return 0;
+}
+
+bool Fit::at_bound(Parameter parameter) const {
+  for (const FreeParameter& p : free) {
+    if (p.id == parameter) return model[p.id] <= p.lower || model[p.id] >= p.upper;
+  }
+  return false;
+}
+
+PairedDifference paired_difference(const Fit& better, const Fit& worse) {
+  const std::size_t blocks = std::min(better.block_loss_m2.size(), worse.block_loss_m2.size());
+  const double variance = better.error_rms_m * better.error_rms_m;
+  PairedDifference difference;
+  double squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double d = (worse.block_loss_m2[b] - better.block_loss_m2[b]) / (2 * variance);
+    difference.nats += d;
+    squares += d * d;
+  }
+  difference.spread = std::sqrt(squares);
+  return difference;
+}
+
+double log_likelihood(const std::vector<double>& errors, double outlier) {
+  double sum = 0;
+  for (const double e : errors) sum += loss(e, outlier);
+  const double n = static_cast<double>(errors.size());
+  return -0.5 * n * std::log(std::max(sum / n, 1e-300));
+}
+
+std::vector<double> counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
+                                   const FitOptions& options) {
+  std::vector<double> all;
+  double log_spread = 0;
+  std::size_t rows = 0;
+  for (const Recording& recording : session.recordings) rows += recording.size();
+  all.reserve(rows);
+  ObserverOptions observer;
+  observer.step_s = options.step_s;
+  const ObserverGains gains = observer_gains(noise, session.rig.period_s(), options.damping_per_s);
+  const std::size_t skip = settling_rows(session.rig);
+  std::vector<Observation> observations(session.recordings.size());
+  parallel_for(observations.size(), options.threads, [&](std::size_t n) {
+    observations[n] = observe(model, gains, session.rig, session.recordings[n], observer);
+  });
+  for (const Observation& seen : observations) {
+    for (std::size_t k = skip; k < seen.error_m.size(); ++k) {
+      if (seen.spread.empty()) {
+        all.push_back(seen.error_m[k]);
+      } else {
+        all.push_back(seen.error_m[k] / seen.spread[k]);
+        log_spread += std::log(seen.spread[k]);
+      }
+    }
+  }
+  // Errors of uneven spread count by it; times its geometric mean, so that log L counts sum(log spread) too.
+  if (log_spread != 0) {
+    const double mean = std::exp(log_spread / static_cast<double>(all.size()));
+    for (double& e : all) e *= mean;
+  }
+  return all;
+}
+
+NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options) {
+  NoiseModel best;
+  double most = -1e300;
+  for (const double ratio : {1e3, 1e4, 1e5, 1e6}) {
+    const NoiseModel tried{ratio, 0.003};
+    const double value = log_likelihood(counted_errors(session, model, tried, options), options.outlier_m);
+    if (value > most) most = value, best = tried;
+  }
+  return best;
+}
+
+Fit fit(const Session& session, const Model& start, const NoiseModel& noise,
+        const std::vector<FreeParameter>& free, const FitOptions& options) {
+  return Fitter(session, free, options).run(start, noise);
+}
+
+}  // namespace cartwright

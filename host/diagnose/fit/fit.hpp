@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "host/diagnose/observe/observer.hpp"
+
+namespace cartwright {
+
+/// One number the fit may move. `scale` is its natural size: finite differences use it. Numbers that span
+/// decades (stiffness, speeds, periods, time constants) move by their logarithm.
+struct FreeParameter {
+  Parameter id;
+  double scale;
+  double lower, upper;
+  bool logarithmic = false;
+};
+
+struct FitOptions {
+  double outlier_m = 0;  ///< errors beyond this count linearly (Huber); 0: every error counts by its square
+  int most_rounds = 4;   ///< rounds of physics, then noise
+  int most_iterations = 8;          ///< Levenberg-Marquardt iterations in a round
+  double tolerance = 0.1;           ///< stop when the log-likelihood gains less than this
+  double finest_noise_step = 0.04;  ///< of the logarithms of the noise, where the pattern search ends
+  bool covariance = true;           ///< else `jacobian` and `covariance` stay empty: a pass a number saved
+  bool move_noise = true;           ///< fit the observer's noise ratio and correlation time alongside
+  double difference_step = 2e-3;    ///< of the finite differences, in units of a parameter's scale
+  double step_s = 1e-3;             ///< greatest inner step of the plant
+  double damping_per_s = 5;         ///< of the linear cart behind the observer's gain
+  unsigned threads = 1;             ///< of a pass, which then takes so many recordings at a time
+};
+
+/// A model fitted by the likelihood of its one-step prediction errors,
+///
+///     log L = -N/2 log(1/N sum rho(e(k))),
+///
+/// with the noise size concentrated out. `covariance` is the sandwich estimate over blocks of time: it stays
+/// honest when errors are coloured or the encoder's steps make them uneven.
+struct Fit {
+  Model model;
+  NoiseModel noise;
+  std::vector<FreeParameter> free;
+  double log_likelihood = 0;
+  double error_rms_m = 0;
+  std::size_t rows = 0;               ///< errors counted
+  std::vector<double> error_m;        ///< all counted errors, recordings in order
+  std::vector<double> block_loss_m2;  ///< sum of rho(e) per block, in session order
+  Eigen::MatrixXd jacobian;           ///< de/dp of the free parameters, a row per counted error
+  Eigen::MatrixXd covariance;         ///< of the free parameters
+  bool converged = false;
+
+  double standard_error(Parameter parameter) const;
+  bool at_bound(Parameter parameter) const;
+};
+
+/// By how much one fit is better than another of the same rows, block by block: the sum of the differences of
+/// their losses in units of the better one's noise, and the spread of that sum.
+struct PairedDifference {
+  double nats = 0, spread = 0;
+};
+PairedDifference paired_difference(const Fit& better, const Fit& worse);
+
+/// A `difference_step` for costs with kinks: contact comes and goes.
+inline constexpr double kStepOverKinks = 0.05;
+
+/// Length of the blocks that losses and scores are summed over.
+inline constexpr double kBlock_s = 0.25;
+
+/// Levenberg-Marquardt over the physics and a pattern search over the noise, in turn, from `start`, within
+/// bounds.
+Fit fit(const Session& session, const Model& start, const NoiseModel& noise,
+        const std::vector<FreeParameter>& free, const FitOptions& options = {});
+
+/// Finds the noise for a fixed model from a coarse grid: the start of the first fit of a session.
+NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options = {});
+
+/// All counted errors of a session, recordings in order.
+std::vector<double> counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
+                                   const FitOptions& options = {});
+
+double log_likelihood(const std::vector<double>& errors_m, double outlier_m);
+
+}  // namespace cartwright

@@ -1,0 +1,177 @@
+#include "host/diagnose/locate/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/diagnose/fit/basis.hpp"
+#include "host/diagnose/fit/influence.hpp"
+#include "host/diagnose/locate/axes.hpp"
+#include "host/parallel.hpp"
+
+namespace cartwright {
+namespace {
+
+/// Upper point of a chi-square at a normal quantile, halved to nats (Wilson-Hilferty).
+double chance_bar(double freedom, double upper_normal) {
+  const double a = 2 / (9 * freedom);
+  const double root = 1 - a + upper_normal * std::sqrt(a);
+  return 0.5 * freedom * root * root * root;
+}
+
+/// Of a map's directions only those are shown that the data tell this well beside the best told one.
+constexpr double kLeastTold = 1e-3;
+
+AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
+               double damping, double looks) {
+  AxisMap map;
+  map.axis = axis.axis, map.parity = axis.parity, map.names = axis.names;
+  if (axis.edges.size() < 2) return map;
+  const auto bins = static_cast<Eigen::Index>(axis.edges.size()) - 1;
+  Eigen::MatrixXd columns(basis.e.size(), bins);
+  const std::size_t skip = settling_rows(session.rig);
+  for (Eigen::Index b = 0; b < bins; ++b) {
+    Eigen::Index row = 0;
+    for (std::size_t n = 0; n < session.recordings.size(); ++n) {
+      Influence influence(gains, session.rig.period_s(), damping);
+      for (std::size_t k = 1; k < session.recordings[n].size(); ++k) {
+        const double push = axis.bin[n][k] == b ? axis.direction[n][k] : 0.0;
+        const double e = influence.step(k, push, 0);
+        if (k >= skip) columns(row++, b) = e;
+      }
+    }
+  }
+  basis.project_out(columns);
+  Eigen::MatrixXd h = columns.transpose() * columns;
+  const Eigen::VectorXd g = columns.transpose() * basis.e;
+  // What the model's own numbers could do as well (a constant, beside a free constant force) is not shown:
+  // pushes are the smallest that explain the errors.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(h);
+  const double least = kLeastTold * axes.eigenvalues().maxCoeff();
+  const Eigen::VectorXd inverse_of_told =
+      (axes.eigenvalues().array() > least).select(1 / axes.eigenvalues().array(), 0);
+  const Eigen::MatrixXd inverse =
+      axes.eigenvectors() * inverse_of_told.asDiagonal() * axes.eigenvectors().transpose();
+  const Eigen::VectorXd x = inverse * g;
+  h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
+  const double explained = g.dot(h.ldlt().solve(g));
+  const double ee = basis.e.squaredNorm();
+  map.gain = -0.5 * static_cast<double>(basis.e.size()) * std::log(std::max(1 - explained / ee, 1e-9));
+  constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
+  map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
+  // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.
+  const double l = std::log(40 * looks);
+  const double quantile = std::sqrt(2 * l - std::log(4 * std::numbers::pi * l));
+  for (Eigen::Index b = 0; b < bins; ++b) {
+    const auto at = static_cast<std::size_t>(b);
+    map.low.push_back(axis.edges[at]);
+    map.high.push_back(axis.edges[at + 1]);
+    map.push_m_per_s2.push_back(x[b]);
+    map.band_m_per_s2.push_back(quantile * std::sqrt(std::max(inverse(b, b), 0.0) * basis.variance_m2));
+  }
+  return map;
+}
+
+/// Pairs of repeats have the same physics left out and different noise.
+void compare_repeats(const Session& session, const Fit& fit, Location& location) {
+  constexpr double kSmooth_s = 0.02;
+  const auto span = static_cast<std::size_t>(std::max(1.0, kSmooth_s * session.rig.sample_rate_hz));
+  const std::size_t skip = settling_rows(session.rig);
+  std::vector<std::vector<double>> smooth;
+  std::size_t first = 0;
+  for (const Recording& r : session.recordings) {
+    const std::size_t rows = r.size() > skip ? r.size() - skip : 0;
+    std::vector<double> means;
+    for (std::size_t k = 0; k + span <= rows; k += span) {
+      double sum = 0;
+      for (std::size_t j = 0; j < span; ++j) sum += fit.error_m[first + k + j];
+      means.push_back(sum / static_cast<double>(span));
+    }
+    smooth.push_back(std::move(means));
+    first += rows;
+  }
+  double cross = 0, power = 0, count = 0;
+  const auto group = [&](std::size_t n) {
+    const Recording& r = session.recordings[n];
+    return r.repeat_of.empty() ? r.file : r.repeat_of;
+  };
+  for (std::size_t a = 0; a < smooth.size(); ++a) {
+    for (std::size_t b = a + 1; b < smooth.size(); ++b) {
+      if (group(a) != group(b)) continue;
+      const std::size_t most = std::min(smooth[a].size(), smooth[b].size());
+      for (std::size_t k = 0; k < most; ++k) {
+        cross += smooth[a][k] * smooth[b][k];
+        power += 0.5 * (smooth[a][k] * smooth[a][k] + smooth[b][k] * smooth[b][k]);
+      }
+      count += static_cast<double>(most);
+    }
+  }
+  if (count < 10) return;
+  location.repeat_correlation = cross / power;
+  location.repeat_z = location.repeat_correlation * std::sqrt(count);
+}
+
+}  // namespace
+
+std::vector<double> AxisMap::stretch() const {
+  std::vector<double> best;
+  double most = 0;
+  for (std::size_t i = 0; i < low.size();) {
+    std::size_t j = i;
+    double excess = 0;
+    while (j < low.size() && std::abs(push_m_per_s2[j]) > band_m_per_s2[j] &&
+           (j == i || (push_m_per_s2[j] > 0) == (push_m_per_s2[i] > 0))) {
+      const double z = push_m_per_s2[j] / band_m_per_s2[j];
+      excess += z * z;
+      ++j;
+    }
+    if (excess > most) most = excess, best = {low[i], high[j - 1]};
+    i = std::max(j, i + 1);
+  }
+  return best;
+}
+
+Location locate(const Session& session, const Fit& fit, const FitOptions& options, unsigned threads) {
+  Location location;
+  const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
+  ObserverOptions keep;
+  keep.keep_states = true;
+  std::vector<Observation> seen(session.recordings.size());
+  parallel_for(seen.size(), threads, [&](std::size_t n) {
+    seen[n] = observe(fit.model, gains, session.rig, session.recordings[n], keep);
+  });
+  const std::vector<AxisBins> axes = axes_of(session, seen);
+
+  const Basis basis = basis_of(fit, options.outlier_m);
+
+  double looks = 0;
+  for (const AxisBins& axis : axes) looks += static_cast<double>(axis.edges.size());
+  location.axes.resize(axes.size());
+  parallel_for(axes.size(), threads, [&](std::size_t i) {
+    location.axes[i] = map_of(session, axes[i], gains, basis, options.damping_per_s, looks);
+  });
+
+  double power = 0;
+  for (const Observation& o : seen) {
+    for (const double d : o.disturbance_m_per_s2) power += d * d;
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    AxisMap& map = location.axes[i];
+    double explained = 0;
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+      for (const int b : axes[i].bin[n]) {
+        if (b < 0) continue;
+        const double push = map.push_m_per_s2[static_cast<std::size_t>(b)];
+        explained += push * push;
+      }
+    }
+    map.share = power > 0 && !map.flat() ? std::min(1.0, explained / power) : 0;
+  }
+  location.over_way = spatial_frequency_profile(session, fit, options, threads);
+  location.over_frequency = frequency_profile(session, fit);
+  location.over_lag = input_lag_profile(session, fit);
+  compare_repeats(session, fit, location);
+  return location;
+}
+
+}  // namespace cartwright

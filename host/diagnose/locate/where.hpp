@@ -1,0 +1,21 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/diagnose/locate/locate.hpp"
+
+namespace cartwright {
+
+/// Axis name to the widest stretch [low, high] on which the missing push stands outside its band; empty:
+/// flat.
+using Where = std::map<std::string, std::vector<double>>;
+
+/// The axes of diagnosis.json, from a location map.
+Where where_of(const Location& location);
+
+/// Gain of the structure that a location map still shows, in nats.
+double structure_left(const Location& location);
+
+}  // namespace cartwright

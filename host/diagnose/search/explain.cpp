@@ -1,0 +1,380 @@
+#include "host/diagnose/search/explain.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "host/diagnose/fit/basis.hpp"
+#include "host/diagnose/search/evolve_gap.hpp"
+#include "host/diagnose/search/plausible.hpp"
+#include "host/diagnose/search/promises.hpp"
+#include "host/diagnose/search/worth_fitting.hpp"
+#include "host/parallel.hpp"
+
+namespace cartwright {
+namespace {
+
+/// Ends a search that keeps finding what it drops again.
+constexpr std::size_t kMostStages = 8;
+constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
+constexpr int kIterationsOfSketch = 6;
+constexpr int kIterationsOfSlowSketch = 3;
+constexpr double kToleranceOfSketch = 2.0;  // nats
+constexpr double kNoiseStepOfSketch = 0.15;
+constexpr double kSketchNearEnough = 0.5;     // of the least gain
+constexpr double kNearTheBest = 0.7;          // of the best gain
+constexpr double kWorthFinishing = 0.3;       // of the best gain
+constexpr std::size_t kRivalsAskedAgain = 2;  // of each effect, once there are further ones
+
+class Explainer {
+ public:
+  Explainer(const Session& session, const Model& nominal, const SearchOptions& options)
+      : session_(session), nominal_(nominal), options_(options), facts_(facts_of(session)) {
+    fit_options_.damping_per_s = linear_damping(nominal);
+    fit_options_.threads = options.threads;  // where fits run side by side, the last one gets them all
+  }
+
+  Search run() {
+    Search search;
+    report("refitting the nominal model", 0);
+    const NoiseModel noise = search_noise(session_, nominal_, fit_options_);
+    search.nominal = fit(session_, nominal_, noise, {}, fit_options_);
+    set_outlier(search.nominal);
+    search.nominal = fit(session_, nominal_, search.nominal.noise, {}, fit_options_);
+    search.refitted.fit = fit(session_, nominal_, search.nominal.noise, free_of_nominal(), fit_options_);
+    set_outlier(search.refitted.fit);
+    search.refitted.fit = fit(session_, search.refitted.fit.model, search.refitted.fit.noise,
+                              search.refitted.fit.free, fit_options_);
+    search.best = search.refitted;
+    for (std::size_t stage = 0;
+         stage < kMostStages && search.best.effects_beyond_every_cart() < options_.most_effects; ++stage) {
+      report("looking for what was left out",
+             std::min(0.95,
+                      (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1)));
+      const double so_far = search.best.score() - search.refitted.score();
+      const double bar = least_further_gain(so_far);
+      std::vector<Explanation> tried = next_effects(search, stage, bar);
+      if (tried.empty() || tried.front().score() - search.best.score() < bar) break;
+      if (only_went_on(search, tried.front(), bar)) break;
+      Contest contest{
+          tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
+      search.best = tried.front();
+      contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
+                                  std::make_move_iterator(tried.end()));
+      search.contests.push_back(std::move(contest));
+      evolve_again(search);
+      swap_stand_ins(search);
+      drop_redundant(search);
+    }
+    add_cogging_waves(search);
+    report("done", 1);
+    return search;
+  }
+
+ private:
+  void report(std::string_view what, double share) const {
+    if (options_.progress) options_.progress(what, share);
+  }
+
+  std::vector<FreeParameter> free_of_nominal() const {
+    std::vector<FreeParameter> free = free_parameters(nominal_, facts_);
+    std::erase_if(free, [this](const FreeParameter& p) {
+      return std::find(options_.held.begin(), options_.held.end(), p.id) != options_.held.end();
+    });
+    return free;
+  }
+
+  /// What a further effect must gain.
+  static double least_further_gain(double so_far) { return std::max(kLeastGain, kLeastShareOfGain * so_far); }
+
+  void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }
+
+  /// Every promising term added to the best explanation so far, fitted; best score first.
+  std::vector<Explanation> next_effects(Search& search, std::size_t stage, double least_gain) {
+    const Explanation& base = search.best;
+    const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
+    const std::vector<Promise> promises =
+        all_promises(data, base.fit, facts_, fit_options_, options_.threads);
+    if (stage == 0) search.promises = promises;
+    // Lost counts cost no search: what cannot come near them need not be fitted.
+    const std::optional<Explanation> lost = lost_counts_on(base);
+    const double to_reach = lost ? std::max(least_gain, lost->score() - base.score()) : least_gain;
+    std::vector<Promise> chosen = worth_fitting(promises, to_reach, base);
+    const auto gap = std::find_if(chosen.begin(), chosen.end(), is_gap);
+    if (gap != chosen.end()) {
+      const std::optional<Promise> better =
+          scan_gaps(data, base.fit, *gap, facts_, with_kinks(gap->start, fit_options_), options_.threads);
+      std::erase_if(chosen, is_gap);
+      if (better) chosen.insert(chosen.begin(), *better);
+    }
+    FitOptions sketch = options_of_sketch();
+    if (base.has_two_masses()) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
+    std::vector<Explanation> tried(chosen.size());
+    parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
+      tried[i].effects = base.effects;
+      tried[i].effects.push_back(chosen[i].term);
+      tried[i].jumps = base.jumps;
+      tried[i].fit = fit(data, chosen[i].start, chosen[i].noise.value_or(base.fit.noise), chosen[i].free,
+                         with_kinks(chosen[i].start, sketch));
+    });
+    if (lost) tried.push_back(*lost);
+    tried = best_per_term(std::move(tried));
+    finish_best(tried, base.score(), least_gain);
+    std::erase_if(tried, [this](const Explanation& one) {
+      return !plausible(one.fit, one.effects.back(), session_, facts_);
+    });
+    put_simplest_first(tried, base.score());
+    return tried;
+  }
+
+  /// A law with more numbers may lead only because it bends towards what is still missing. The simplest that
+  /// comes near goes first; what it lacks is looked for next, and if that makes it redundant it is dropped
+  /// again.
+  static void put_simplest_first(std::vector<Explanation>& tried, double base_score) {
+    if (tried.empty()) return;
+    const double bar = base_score + kNearTheBest * (tried.front().score() - base_score);
+    auto simplest = tried.begin();
+    for (auto one = tried.begin(); one != tried.end() && one->score() >= bar; ++one) {
+      if (one->fit.free.size() < simplest->fit.free.size()) simplest = one;
+    }
+    std::rotate(tried.begin(), simplest, simplest + 1);
+  }
+
+  /// Fits the leading explanations to the end; the rest are only there to be told from. None where the best
+  /// is far from what it has to gain.
+  void finish_best(std::vector<Explanation>& tried, double base_score, double least_gain) const {
+    if (tried.empty() || tried.front().score() - base_score < kSketchNearEnough * least_gain) return;
+    const double bar = base_score + kWorthFinishing * (tried.front().score() - base_score);
+    parallel_for(tried.size(), options_.threads, [&](std::size_t i) {
+      if (tried[i].score() < bar) return;
+      tried[i].fit = finished(without_jumps(session_, tried[i].jumps), tried[i].fit);
+    });
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
+  }
+
+  /// A sketch, fitted to the end.
+  Fit finished(const Session& data, const Fit& sketch) const {
+    return fit(data, sketch.model, sketch.noise, sketch.free, with_kinks(sketch.model, fit_options_));
+  }
+
+  FitOptions options_of_sketch() const {
+    FitOptions sketch = fit_options_;
+    sketch.most_rounds = kRoundsOfSketch;
+    sketch.most_iterations = kIterationsOfSketch;
+    sketch.tolerance = kToleranceOfSketch;
+    sketch.covariance = false;
+    sketch.finest_noise_step = kNoiseStepOfSketch;
+    return sketch;
+  }
+
+  /// Contact comes and goes: the cost of a model with a gap has kinks, so slopes are taken over wider steps.
+  FitOptions with_kinks(const Model& model, FitOptions options) const {
+    if (!model.has(Term::backlash)) return options;
+    options.difference_step = kStepOverKinks;
+    options.most_rounds = std::min(options.most_rounds, 2);
+    options.tolerance = kToleranceOfSketch;
+    return options;
+  }
+
+  std::optional<Explanation> lost_counts_on(const Explanation& base) const {
+    if (base.has(Term::encoder_missed_counts)) return std::nullopt;
+    const std::vector<ReadingJump> jumps = scan_jumps(session_, base.fit, fit_options_);
+    if (!like_lost_counts(session_, jumps)) return std::nullopt;
+    Explanation lost = base;
+    lost.effects.push_back(Term::encoder_missed_counts);
+    lost.jumps = jumps;
+    const Session data = without_jumps(session_, jumps);
+    lost.fit = fit(data, base.fit.model, base.fit.noise, base.fit.free, fit_options_);
+    lost.fit.model.add(Term::encoder_missed_counts);
+    return lost;
+  }
+
+  static std::vector<Explanation> best_per_term(std::vector<Explanation> tried) {
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
+    std::vector<Explanation> kept;
+    for (Explanation& one : tried) {
+      const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Explanation& other) {
+        return other.effects.back() == one.effects.back();
+      });
+      if (!seen) kept.push_back(std::move(one));
+    }
+    return kept;
+  }
+
+  /// The parameters of a fit that are not of this term.
+  static std::vector<FreeParameter> free_beside(const Fit& fit, Term term) {
+    std::vector<FreeParameter> free;
+    std::copy_if(fit.free.begin(), fit.free.end(), std::back_inserter(free),
+                 [&](const FreeParameter& p) { return info(p.id).term != term; });
+    return free;
+  }
+
+  /// An explanation refitted from where it is, one of its effects taken out.
+  Explanation doing_without(const Explanation& from, std::size_t effect) const {
+    Explanation without = from;
+    const Term term = from.effects[effect];
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+    Model model = from.fit.model;
+    model.remove(term);
+    without.fit = fit(without_jumps(session_, without.jumps), model, from.fit.noise,
+                      free_beside(from.fit, term), with_kinks(model, fit_options_));
+    return without;
+  }
+
+  /// A fit among kinks ends where it cannot go on, and a further effect may gain only because its fit went on
+  /// from there. Then what it found without that effect is taken, and the effect is not.
+  bool only_went_on(Search& search, const Explanation& further, double bar) const {
+    if (!search.best.has(Term::backlash) || further.effects.back() == Term::encoder_missed_counts)
+      return false;
+    Explanation without = doing_without(further, further.effects.size() - 1);
+    if (further.score() - without.score() >= bar) return false;
+    if (without.score() > search.best.score()) search.best = std::move(without);
+    return true;
+  }
+
+  /// What was added beside a gap moves the gap's own numbers, and slopes do not lead there. What that gains
+  /// is the gap's.
+  void evolve_again(Search& search) const {
+    const Explanation& found = search.best;
+    const auto gap = std::find_if(search.contests.begin(), search.contests.end(),
+                                  [](const Contest& one) { return one.chosen == Term::backlash; });
+    if (gap == search.contests.end() || found.effects.back() == Term::backlash) return;
+    const Session data = without_jumps(session_, found.jumps);
+    const FitOptions options = with_kinks(found.fit.model, fit_options_);
+    const Model start = evolve_gap(data, found.fit.model, sharp(found.fit.noise, kFinerDisturbance),
+                                   found.fit.free, options, options_.threads);
+    Explanation evolved = found;
+    evolved.fit = fit(data, start, found.fit.noise, found.fit.free, options);
+    const double better = evolved.score() - found.score();
+    if (better <= 0) return;
+    gap->gain += better;
+    search.best = std::move(evolved);
+  }
+
+  /// An explanation refitted with another term in the place of one of its effects, which starts as it was
+  /// found; to the end only where a sketch scores more than `worth_finishing`.
+  Explanation in_place_of(const Explanation& from, std::size_t effect, const Explanation& rival,
+                          double worth_finishing) const {
+    Explanation swapped = from;
+    const Term old = from.effects[effect], term = rival.effects.back();
+    swapped.effects[effect] = term;
+    Model model = from.fit.model;
+    model.remove(old);
+    if (term == Term::external_disturbance)
+      model.disturbance_recording = rival.fit.model.disturbance_recording;
+    std::vector<FreeParameter> free = free_beside(from.fit, old);
+    for (const FreeParameter& p : rival.fit.free) {
+      if (info(p.id).term != term) continue;
+      free.push_back(p);
+      model.set(p.id, rival.fit.model[p.id]);
+    }
+    const Session data = without_jumps(session_, from.jumps);
+    swapped.fit = fit(data, model, from.fit.noise, free, with_kinks(model, options_of_sketch()));
+    if (swapped.score() > worth_finishing) swapped.fit = finished(data, swapped.fit);
+    return swapped;
+  }
+
+  /// An effect found early may have stood in for a rival that does better beside what was found later. What
+  /// every cart has stands in for nothing.
+  void swap_stand_ins(Search& search) const {
+    if (search.best.has_two_masses()) return;
+    for (std::size_t i = 0; i + 1 < search.contests.size(); ++i) {
+      Contest& contest = search.contests[i];
+      if (every_cart_has(contest.chosen) || contest.chosen == Term::encoder_missed_counts) continue;
+      std::vector<Explanation> rivals;
+      for (const Explanation& rival : contest.alternatives) {
+        const Term term = rival.effects.back();
+        if (rivals.size() == kRivalsAskedAgain) break;
+        if (!search.best.has(term) && !two_masses(term) && term != Term::encoder_missed_counts)
+          rivals.push_back(rival);
+      }
+      const double worth_finishing = search.best.score() - (1 - kNearTheBest) * contest.gain;
+      parallel_for(rivals.size(), options_.threads, [&](std::size_t n) {
+        rivals[n] = in_place_of(search.best, i, rivals[n], worth_finishing);
+      });
+      for (const Explanation& swapped : rivals) {
+        const double better = swapped.score() - search.best.score();
+        if (better < kLeastGain || !plausible(swapped.fit, swapped.effects[i], session_, facts_)) continue;
+        Explanation beaten = search.best;
+        std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
+                    beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
+        contest = {swapped.effects[i], contest.gain + better, swapped, {std::move(beaten)}};
+        search.best = swapped;
+      }
+    }
+  }
+
+  /// An effect found early may only have stood in for one found later. Beside a gap, whose form is slightly
+  /// off until all else is known, it must gain what it had to gain to be found.
+  void drop_redundant(Search& search) const {
+    const double so_far = search.best.score() - search.refitted.score();
+    const double bar = search.best.has(Term::backlash) ? least_further_gain(so_far) : kLeastGain;
+    for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
+      const Term term = search.best.effects[i];
+      if (term == Term::encoder_missed_counts) continue;
+      Explanation without = doing_without(search.best, i);
+      if (search.best.score() - without.score() >= bar) continue;
+      search.best = std::move(without);
+      search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));
+      return;
+    }
+  }
+
+  /// Cogging may repeat with several periods. Each further one must gain what an effect must; it is no effect
+  /// of its own.
+  void add_cogging_waves(Search& search) const {
+    const auto cogging = std::find_if(search.contests.begin(), search.contests.end(),
+                                      [](const Contest& one) { return one.chosen == Term::cogging; });
+    if (cogging == search.contests.end()) return;
+    const Session data = without_jumps(session_, search.best.jumps);
+    while (const auto wave =
+               scan_further_wave(data, search.best.fit, facts_, fit_options_, options_.threads)) {
+      if (wave->log_likelihood_gain < kLeastGain / kMostGainOverPromise) return;
+      Explanation further = search.best;
+      further.fit =
+          fit(data, wave->start, search.best.fit.noise, wave->free, with_kinks(wave->start, fit_options_));
+      const double gain = further.score() - search.best.score();
+      if (gain < kLeastGain || !plausible(further.fit, Term::cogging, session_, facts_)) return;
+      cogging->gain += gain;
+      search.best = std::move(further);
+    }
+  }
+
+  const Session& session_;
+  const Model& nominal_;
+  const SearchOptions& options_;
+  SessionFacts facts_;
+  FitOptions fit_options_;
+};
+
+}  // namespace
+
+double Explanation::score() const {
+  const double numbers = static_cast<double>(fit.free.size()) + 2 * static_cast<double>(jumps.size());
+  return fit.log_likelihood - kCostPerNumber * numbers;
+}
+
+bool Explanation::has(Term term) const {
+  return std::find(effects.begin(), effects.end(), term) != effects.end();
+}
+
+bool Explanation::has_two_masses() const {
+  return std::any_of(effects.begin(), effects.end(), two_masses);
+}
+
+std::size_t Explanation::effects_beyond_every_cart() const {
+  const auto others = std::count_if(effects.begin(), effects.end(), std::not_fn(every_cart_has));
+  return static_cast<std::size_t>(others);
+}
+
+bool every_cart_has(Term term) {
+  return term == Term::viscous_friction || term == Term::coulomb_friction || term == Term::constant_force;
+}
+
+Search explain(const Session& session, const Model& nominal, const SearchOptions& options) {
+  return Explainer(session, nominal, options).run();
+}
+
+}  // namespace cartwright

@@ -1,0 +1,61 @@
+#include "host/diagnose/search/plausible.hpp"
+
+#include <algorithm>
+
+#include "host/diagnose/observe/observer.hpp"
+
+namespace cartwright {
+namespace {
+
+/// The lines of an encoder stand no nearer to their places than half a count: a smaller error is the encoder
+/// itself, not the way it was mounted.
+constexpr double kLeastEccentricity = 0.5;
+
+/// A winding 150 K above the room, the most that insulation of class H bears, has 1.6 times its resistance:
+/// the gain is then 0.63 of what it was. Even small windings take a second to warm up.
+constexpr double kMostHeating = 0.5;
+constexpr double kFastestHeating_s = 0.5;
+
+/// What is at its height before the errors of its recording count is a start state that does not fit, not a
+/// push.
+bool inside_its_recording(const Model& model, const Session& session) {
+  const auto r = std::find_if(session.recordings.begin(), session.recordings.end(),
+                              [&](const Recording& one) { return one.file == model.disturbance_recording; });
+  if (r == session.recordings.end() || r->size() <= settling_rows(session.rig)) return false;
+  const double start_s = model[Parameter::disturbance_start];
+  const double duration_s = model[Parameter::disturbance_duration];
+  return start_s >= r->t_s.front() && start_s + duration_s <= r->t_s.back() &&
+         start_s + 0.5 * duration_s >= r->t_s[settling_rows(session.rig)];
+}
+
+}  // namespace
+
+bool plausible(const Fit& fit, Term effect, const Session& session, const SessionFacts& facts) {
+  for (const FreeParameter& p : fit.free) {
+    const bool optional = info(p.id).default_value.has_value();  // rigid teeth are teeth
+    if (info(p.id).term == effect && !optional && p.logarithmic && fit.at_bound(p.id)) return false;
+  }
+  const double count = session.rig.encoder_resolution_m;
+  // A period that the way does not hold twice is not seen to repeat: any bend of a force would look like it.
+  const double longest_m = facts.travel_m() / 2;
+  switch (effect) {
+    case Term::backlash:
+      return fit.model[Parameter::backlash_gap] >= count;
+    case Term::cogging:
+      return std::all_of(kCoggingWaves.begin(), kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
+        return fit.model[wave.amplitude] == 0 || fit.model[wave.period] <= longest_m;
+      });
+    case Term::encoder_eccentricity:
+      return fit.model[Parameter::eccentricity_period] <= longest_m &&
+             fit.model[Parameter::eccentricity_amplitude] >= kLeastEccentricity * count;
+    case Term::motor_heating:
+      return fit.model[Parameter::heating_gain_loss] <= kMostHeating &&
+             fit.model[Parameter::heating_time_constant] >= kFastestHeating_s;
+    case Term::external_disturbance:
+      return inside_its_recording(fit.model, session);
+    default:
+      return true;
+  }
+}
+
+}  // namespace cartwright

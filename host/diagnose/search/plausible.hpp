@@ -1,0 +1,14 @@
+#pragma once
+
+#include "host/diagnose/fit/candidates.hpp"
+#include "host/diagnose/fit/fit.hpp"
+#include "host/session/session.hpp"
+
+namespace cartwright {
+
+/// Whether an effect was fitted with numbers that its physics can have and that this session can show: away
+/// from its bounds, a gap of a count at least, a period that the way holds twice, a push inside its
+/// recording.
+bool plausible(const Fit& fit, Term effect, const Session& session, const SessionFacts& facts);
+
+}  // namespace cartwright

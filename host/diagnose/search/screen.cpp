@@ -1,0 +1,69 @@
+#include "host/diagnose/search/screen.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/diagnose/fit/basis.hpp"
+#include "host/parallel.hpp"
+
+namespace cartwright {
+namespace {
+
+/// A start may be off by this factor and still be judged by its column.
+constexpr double kMostMultiple = 5;
+
+bool has_sign(Term term) {
+  switch (term) {
+    case Term::constant_force:
+    case Term::asymmetric_viscous_friction:
+    case Term::amplifier_gain_asymmetry:
+    case Term::cable_spring:
+    case Term::motor_heating:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::vector<Promise> screen(const Session& session, const Fit& base, const std::vector<Candidate>& list,
+                            const FitOptions& options, unsigned threads) {
+  const Basis basis = basis_of(base, options.outlier_m);
+  const Eigen::VectorXd& e = basis.e;
+  const auto rows = e.size();
+  const double ee = e.squaredNorm();
+
+  std::vector<Promise> promises;
+  std::vector<const Candidate*> owner;
+  for (const Candidate& candidate : list) {
+    for (const auto& start : candidate.starts) {
+      Promise promise{candidate.term, with_start(base.model, start), base.free, 0};
+      promise.free.insert(promise.free.end(), candidate.free.begin(), candidate.free.end());
+      promises.push_back(std::move(promise));
+    }
+  }
+  parallel_for(promises.size(), threads, [&](std::size_t i) {
+    Promise& promise = promises[i];
+    const std::vector<double> errors = counted_errors(session, promise.start, base.noise, options);
+    Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(errors.data(), rows) -
+                             Eigen::Map<const Eigen::VectorXd>(base.error_m.data(), rows);
+    if (options.outlier_m > 0) {
+      column = column.cwiseMin(2 * options.outlier_m).cwiseMax(-2 * options.outlier_m);
+    }
+    basis.project_out(column);
+    const double cc = column.squaredNorm();
+    if (!(cc > 0)) return;
+    double multiple = -column.dot(e) / cc;
+    multiple = std::clamp(multiple, has_sign(promise.term) ? -1e9 : 0.0,
+                          has_sign(promise.term) ? 1e9 : kMostMultiple);
+    const double left = (e + multiple * column).squaredNorm();
+    promise.log_likelihood_gain = 0.5 * static_cast<double>(rows) * std::log(ee / left);
+  });
+  std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
+    return a.log_likelihood_gain > b.log_likelihood_gain;
+  });
+  return promises;
+}
+
+}  // namespace cartwright

@@ -1,0 +1,66 @@
+#include "host/diagnose/search/worth_fitting.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "host/diagnose/search/promises.hpp"
+
+namespace cartwright {
+namespace {
+
+constexpr std::size_t kTermsFitted = 5;      // most terms fitted after a screening
+constexpr std::size_t kTermsFittedSlow = 2;  // the same on top of two masses, which cost ten times the time
+/// With so many effects found, two masses would be the third; they cost more than all other candidates
+/// together.
+constexpr std::size_t kEffectsBeforeTwoMasses = 2;
+constexpr std::size_t kStartsFitted = 2;    // most starts of one term
+constexpr double kLeastPromise = 3.0;       // nats, to be fitted at all
+constexpr double kLeastShareOfBest = 0.03;  // of the best promise
+
+bool many_minima(Term term) {
+  return two_masses(term) || term == Term::cogging || term == Term::encoder_eccentricity ||
+         term == Term::stribeck_friction || term == Term::position_dependent_friction ||
+         term == Term::presliding_friction;
+}
+
+/// A coupling with play shows that play more than that it gives; where it is told the other way round, a
+/// gap would be looked for in vain, at great cost.
+bool gives_rather_than_plays(const std::vector<Promise>& promises) {
+  const auto first =
+      std::find_if(promises.begin(), promises.end(), [](const Promise& one) { return two_masses(one.term); });
+  return first != promises.end() && !is_gap(*first);
+}
+
+}  // namespace
+
+bool is_gap(const Promise& promise) {
+  return promise.term == Term::backlash;
+}
+
+std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double least_gain,
+                                   const Explanation& base) {
+  const std::size_t most_terms = base.has_two_masses() ? kTermsFittedSlow : kTermsFitted;
+  const bool no_gap = gives_rather_than_plays(promises);
+  std::vector<Promise> chosen;
+  std::map<Term, std::size_t> starts;
+  for (const Promise& promise : promises) {
+    const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
+                                 kLeastShareOfBest * promises.front().log_likelihood_gain});
+    if (promise.log_likelihood_gain < bar) break;
+    if (two_masses(promise.term) &&
+        (base.effects_beyond_every_cart() >= kEffectsBeforeTwoMasses ||
+         promise.log_likelihood_gain < kLeastShareOfTwoMasses * promises.front().log_likelihood_gain)) {
+      continue;
+    }
+    if (is_gap(promise) && no_gap) continue;
+    if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
+    // A second start is worth its time only where it promises nearly as much.
+    if (starts[promise.term] >= kStartsFitted) continue;
+    if (starts[promise.term] > 0 && !many_minima(promise.term)) continue;
+    ++starts[promise.term];
+    chosen.push_back(promise);
+  }
+  return chosen;
+}
+
+}  // namespace cartwright
