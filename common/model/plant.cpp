@@ -23,7 +23,10 @@ Growth growth(double z) noexcept {
 
 Plant::Plant(const Model& model, const PlantOptions& options)
     : terms_(model, options.disturbance_active),
-      step_s_(std::min(options.step_s, options.stiff_step_factor * terms_.longest_step_s)),
+      series_(terms_.linear_two_masses ||
+              (options.places_by_steps && terms_.linear_two_masses_but_for_places)),
+      step_s_(std::min(options.step_s, options.stiff_step_factor *
+                                           (series_ ? terms_.longest_series_step_s : terms_.longest_step_s))),
       heating_start_s_(options.heating_start_s) {}
 
 void Plant::reset(const PlantState& state) {
@@ -98,7 +101,7 @@ void Plant::hold(double shaped_V, double duration_s) noexcept {
   if (!(duration_s > 0)) return;
   target_V_ = shaped_V;
   const double end = state_.time_s + duration_s;
-  if (terms_.linear || terms_.linear_two_masses) {
+  if (terms_.linear || series_) {
     terms_.linear ? hold_linear(duration_s) : hold_two_masses_linear(duration_s);
     state_.armature_V = shaped_V;
     state_.time_s = end;

@@ -24,6 +24,10 @@ struct PlantOptions {
   double heating_start_s = 0;      ///< time_s at which the motor was cold
   /// Multiplies the step that stiff terms choose. Observers, corrected every tick, do well with 3.
   double stiff_step_factor = 1;
+  /// Takes what changes with place alone (spot, cogging, spring) where two masses are half way through each
+  /// inner step; between events they are then linear, and take a series as others do. Of a wave of wavenumber
+  /// k that leaves out (k v h)^2/24. For observers.
+  bool places_by_steps = false;
 };
 
 /// The cart,
@@ -82,6 +86,7 @@ class Plant {
   double release_s(double duration_s, const Moves& moves) const noexcept;
 
   PlantTerms terms_;
+  bool series_;  // two masses that are linear, at least by steps
   double step_s_, heating_start_s_;
   PlantState state_;
   double target_V_ = 0;  // voltage the armature moves towards in this hold

@@ -108,14 +108,20 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   rigid_backlash = gap > 0 && joint.rate_per_s == 0;
   varies_in_time = has_lag || has_heating || has_disturbance;
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
-  const bool linear_forces = !(varies_in_time || has_level_shape || has_exponential || cogging_waves > 0 ||
-                               has_current_limit || has_bristle || spring != 0 || drag != 0);
-  linear = linear_forces && !two_masses;
-  linear_two_masses = linear_forces && two_masses && !rigid_backlash && viscous_difference == 0;
+  const bool linear_but_for_places = !(varies_in_time || stribeck_excess != 0 || has_exponential ||
+                                       has_current_limit || has_bristle || drag != 0);
+  const bool changes_with_place = spot_peak != 0 || cogging_waves > 0 || spring != 0;
+  linear = linear_but_for_places && !changes_with_place && !two_masses;
+  linear_two_masses_but_for_places =
+      linear_but_for_places && two_masses && !rigid_backlash && viscous_difference == 0;
+  linear_two_masses = linear_two_masses_but_for_places && !changes_with_place;
 
   const double rate = fastest_rate(m, *this);
-  const double step_times_rate = linear_two_masses ? kSeriesStepTimesRate : kStepTimesRate;
-  longest_step_s = rate > 0 ? std::max(step_times_rate / rate, kLeastStep_s) : kInfinity;
+  const auto longest_step = [rate](double step_times_rate) {
+    return rate > 0 ? std::max(step_times_rate / rate, kLeastStep_s) : kInfinity;
+  };
+  longest_step_s = longest_step(kStepTimesRate);
+  longest_series_step_s = longest_step(kSeriesStepTimesRate);
   if (has_lag) longest_step_s = std::min(longest_step_s, std::max(lag_s, kLeastStep_s));
 }
 

@@ -45,7 +45,9 @@ struct PlantTerms {
   bool breaks_at_rest;  ///< the force, or its slope, jumps where the velocity changes sign
   bool linear;  ///< one mass with viscous and Coulomb friction and a constant push: solved in closed form
   bool linear_two_masses;  ///< two masses with the same, and a coupling that is not rigid: a series in time
-  double longest_step_s;   ///< resolves the fastest of the model's own motions
+  bool linear_two_masses_but_for_places;  ///< the same, but for what changes with place alone
+  double longest_step_s;                  ///< resolves the fastest of the model's own motions
+  double longest_series_step_s;           ///< the same, where a series is taken
 
   /// Dead zone, saturation and gain asymmetry: what the amplifier makes of a command.
   double amplifier(double command_V) const noexcept {

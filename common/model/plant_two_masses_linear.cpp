@@ -1,5 +1,5 @@
-// Two masses whose forces are linear between events: the state after a step is a Taylor series, and events
-// are roots along it.
+// Two masses whose forces are linear between events, or taken as linear for a step: the state after a step is
+// a Taylor series, and events are roots along it.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -38,14 +38,15 @@ constexpr std::array kEvents{Event::cart_stops, Event::motor_stops, Event::cart_
 
 class LinearPair {
  public:
-  LinearPair(const PlantTerms& terms, double drive, double push)
+  LinearPair(const PlantTerms& terms, double drive, double push, const Both& place)
       : stiffness_(terms.coupling_stiffness),
         coupling_damping_(terms.coupling_damping),
         gap_(terms.gap),
         inverse_mass_{1 / terms.load_share, 1 / (1 - terms.load_share)},
-        outer_{terms.constant + push, drive},
+        outer_{terms.pushes(place.cart, 0) + push, drive},
         damping_{terms.load_damping_share * terms.viscous, (1 - terms.load_damping_share) * terms.viscous},
-        level_{terms.load_friction_share * terms.coulomb, (1 - terms.load_friction_share) * terms.coulomb} {}
+        level_{terms.load_friction_share * terms.level(place.cart, 0),
+               (1 - terms.load_friction_share) * terms.level(place.motor, 0)} {}
 
   Mode mode(const Motion& at, int contact) const {
     Mode m;
@@ -174,14 +175,15 @@ double root_after(const Past& past, double at_start, double h) {
 }  // namespace
 
 void Plant::hold_two_masses_linear(double duration_s) noexcept {
-  const LinearPair pair(terms_, terms_.beta * target_V_, extra_push_);
   Motion now{{state_.position_m, state_.motor_position_m},
              {state_.velocity_m_per_s, state_.motor_velocity_m_per_s}};
   double left = duration_s;
   int events = 0;
   while (left > kLeastAdvance_s) {
-    const Mode mode = pair.mode(now, state_.contact);
     double h = std::min(left, step_s_);
+    const LinearPair pair(terms_, terms_.beta * target_V_, extra_push_,
+                          {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor});
+    const Mode mode = pair.mode(now, state_.contact);
     Motion next = pair.after(now, mode, h);
     Event first = Event::none;
     for (const Event event : kEvents) {

@@ -188,5 +188,42 @@ TEST(Backlash, TeethThatGiveMeetAsOftenAsTheyMustInOneLongHold) {
   EXPECT_NEAR(once.state().motor_position_m - once.state().position_m, 0.5e-3, 1e-5);
 }
 
+/// Greatest distance between two runs of a cart that is driven to and fro for two seconds.
+double greatest_distance(const Model& a, const PlantOptions& as, const Model& b, const PlantOptions& bs) {
+  Plant one = plant_at(a, 0, 0, as), other = plant_at(b, 0, 0, bs);
+  double greatest = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const double command_V = (tick / 250) % 2 == 0 ? 4 : -4;
+    one.advance(command_V, 1e-3);
+    other.advance(command_V, 1e-3);
+    greatest = std::max(greatest, std::abs(one.state().position_m - other.state().position_m));
+  }
+  return greatest;
+}
+
+TEST(TwoMasses, PlacesTakenByStepsKeepWhatPlacesDo) {
+  const Model bare = Model(2.0).set(P::viscous_coefficient, 5).set(P::coulomb_level, 0.5);
+  Model geared = bare, sprung = bare;
+  geared.set(P::backlash_gap, 5e-4)
+      .set(P::backlash_contact_resonance, 100)
+      .set(P::backlash_contact_damping_ratio, 0.3);
+  sprung.set(P::coupling_resonance, 30).set(P::coupling_damping_ratio, 0.05).set(P::coupling_load_share, 0.6);
+  PlantOptions by_steps, finely;
+  by_steps.step_s = 1e-3;
+  by_steps.stiff_step_factor = 3;
+  by_steps.places_by_steps = true;
+  finely.step_s = 2e-5;
+  for (const Model& without : {geared, sprung}) {
+    Model with = without;
+    with.set(P::spot_peak, 0.4).set(P::spot_centre, 0.05).set(P::spot_width, 0.01);
+    with.set(P::cogging_amplitude, 0.3).set(P::cogging_period, 0.012);
+    with.set(P::spring_stiffness, 4).set(P::spring_neutral, 0.02);
+    const double places = greatest_distance(with, finely, without, finely);
+    EXPECT_GT(places, 1e-3);
+    EXPECT_LT(greatest_distance(with, by_steps, with, finely), 1e-3 * places);
+    EXPECT_EQ(greatest_distance(without, by_steps, without, by_steps), 0);
+  }
+}
+
 }  // namespace
 }  // namespace cartwright
