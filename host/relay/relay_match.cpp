@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/model/plant.hpp"
+#include "host/statistics/autocorrelation.hpp"
 
 namespace cartwright {
 namespace {
@@ -261,18 +262,6 @@ double repeats(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return scale > 0 ? a.head(rows).dot(b.head(rows)) / scale : 0.0;
 }
 
-/// Sum of the autocorrelation up to its first zero: how many rows count as one.
-double rows_per_independent_row(const Eigen::VectorXd& e) {
-  const double power = e.squaredNorm();
-  double sum = 1;
-  for (Eigen::Index lag = 1; lag < e.size() / 4 && power > 0; ++lag) {
-    const double r = e.head(e.size() - lag).dot(e.tail(e.size() - lag)) / power;
-    if (r <= 0) break;
-    sum += 2 * r;
-  }
-  return sum;
-}
-
 RelayMatch Match::result() const {
   RelayMatch out;
   out.values = values_;
@@ -298,7 +287,7 @@ RelayMatch Match::result() const {
     const bool same = i > 0 && windows_[i - 1].recording == w.recording;
     const double again = same ? std::clamp(repeats(before, fit.reduced) - 0.1, 0.0, 1.0) : 0.0;
     const double variance = fit.reduced.squaredNorm() / static_cast<double>(fit.reduced.size());
-    common += weight * variance * rows_per_independent_row(fit.reduced) * again * cycles * own;
+    common += weight * variance * errors_per_independent_one(fit.reduced) * again * cycles * own;
     before = fit.reduced;
     auto& predicted = out.predicted_m[w.recording];
     for (std::size_t row = w.first; row < w.last; ++row) {

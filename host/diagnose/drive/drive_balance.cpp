@@ -6,6 +6,7 @@
 
 #include "common/model/vocabulary.hpp"
 #include "host/diagnose/drive/drive_lines.hpp"
+#include "host/statistics/autocorrelation.hpp"
 #include "host/statistics/distributions.hpp"
 
 namespace cartwright {

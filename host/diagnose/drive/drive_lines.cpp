@@ -6,6 +6,7 @@
 
 #include "host/diagnose/search/explain.hpp"
 #include "host/parallel.hpp"
+#include "host/statistics/autocorrelation.hpp"
 
 namespace cartwright {
 namespace {
@@ -38,17 +39,6 @@ Eigen::ColPivHouseholderQR<MatrixXd> factored(const MatrixXd& columns) {
 MatrixXd orthonormal(const MatrixXd& columns) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr = factored(columns);
   return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
-}
-
-double errors_per_independent_one(const VectorXd& e) {
-  const double power = e.squaredNorm();
-  double sum = 1;
-  for (Index lag = 1; lag < e.size() / 4 && power > 0; ++lag) {
-    const double r = e.head(e.size() - lag).dot(e.tail(e.size() - lag)) / power;
-    if (r <= 0) break;
-    sum += 2 * r;
-  }
-  return sum;
 }
 
 DriveLines::DriveLines(const Session& session, unsigned threads)

@@ -61,7 +61,4 @@ class DriveLines {
 /// A basis of the columns' span.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
-/// How many neighbouring errors count as one: the sum of their autocorrelation up to its first zero.
-double errors_per_independent_one(const Eigen::VectorXd& errors);
-
 }  // namespace cartwright

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+
+#include "host/statistics/autocorrelation.hpp"
 
 namespace cartwright {
 namespace {
@@ -31,6 +34,19 @@ TEST(Distributions, IncompleteBetaIsSymmetricAndComplete) {
   EXPECT_NEAR(incomplete_beta(1, 3, 0.2), 1 - std::pow(0.8, 3), 1e-13);
   EXPECT_EQ(incomplete_beta(3, 2, 0), 0);
   EXPECT_EQ(incomplete_beta(3, 2, 1), 1);
+}
+
+TEST(Autocorrelation, CountsAsManyErrorsAsOneAsTheirCorrelationTimeHolds) {
+  // A first-order process, e(k) = a e(k-1) + noise: the sum of a^|lag| over all lags is (1 + a)/(1 - a).
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal_draw;
+  for (const double a : {0.0, 0.5, 0.9}) {
+    Eigen::VectorXd e = Eigen::VectorXd::Zero(40000);
+    for (Eigen::Index k = 1; k < e.size(); ++k) e[k] = a * e[k - 1] + normal_draw(random);
+    const double expected = (1 + a) / (1 - a);
+    EXPECT_NEAR(errors_per_independent_one(e), expected, 0.15 * expected) << a;
+  }
+  EXPECT_EQ(errors_per_independent_one(Eigen::VectorXd::Zero(100)), 1);
 }
 
 }  // namespace
