@@ -25,16 +25,17 @@ struct Motion {
 };
 
 /// How friction and contact act until the next event.
-struct Mode {
+struct LinearMode {
   Both friction;  // that slides: level times the sign of the motion
   bool cart_stuck = false, motor_stuck = false;
   int contact = 0;
   bool coupled = false;  // the masses act on each other
 };
 
-enum class Event { none, cart_stops, motor_stops, cart_starts, motor_starts, touch, part, press_turns };
-constexpr std::array kEvents{Event::cart_stops, Event::motor_stops, Event::cart_starts, Event::motor_starts,
-                             Event::touch,      Event::part,        Event::press_turns};
+enum class LinearEvent { none, cart_stops, motor_stops, cart_starts, motor_starts, touch, part, press_turns };
+constexpr std::array kEvents{LinearEvent::cart_stops,   LinearEvent::motor_stops, LinearEvent::cart_starts,
+                             LinearEvent::motor_starts, LinearEvent::touch,       LinearEvent::part,
+                             LinearEvent::press_turns};
 
 class LinearPair {
  public:
@@ -48,8 +49,8 @@ class LinearPair {
         level_{terms.load_friction_share * terms.level(place.cart, 0),
                (1 - terms.load_friction_share) * terms.level(place.motor, 0)} {}
 
-  Mode mode(const Motion& at, int contact) const {
-    Mode m;
+  LinearMode mode(const Motion& at, int contact) const {
+    LinearMode m;
     m.contact = contact;
     m.coupled = gap_ == 0 || (contact != 0 && contact * press(at, contact) > 0);
     const Both net = forces(at, m);
@@ -63,7 +64,7 @@ class LinearPair {
   }
 
   /// The motion h later: each derivative follows from the one before it as accelerations do from the state.
-  Motion after(const Motion& at, const Mode& mode, double h) const {
+  Motion after(const Motion& at, const LinearMode& mode, double h) const {
     const Both net = forces(at, mode);
     Motion out = at;
     Both v = at.v;
@@ -85,31 +86,31 @@ class LinearPair {
   }
 
   /// Greater than zero once the event has happened; none where it cannot.
-  std::optional<double> past(Event event, const Motion& at, const Mode& mode) const {
+  std::optional<double> past(LinearEvent event, const Motion& at, const LinearMode& mode) const {
     const bool gap = gap_ > 0;
     switch (event) {
-      case Event::cart_stops:
+      case LinearEvent::cart_stops:
         if (mode.friction.cart == 0) return {};
         return -mode.friction.cart * at.v.cart;
-      case Event::motor_stops:
+      case LinearEvent::motor_stops:
         if (mode.friction.motor == 0) return {};
         return -mode.friction.motor * at.v.motor;
-      case Event::cart_starts:
+      case LinearEvent::cart_starts:
         if (!mode.cart_stuck) return {};
         return std::abs(forces(at, mode).cart) - level_.cart;
-      case Event::motor_starts:
+      case LinearEvent::motor_starts:
         if (!mode.motor_stuck) return {};
         return std::abs(forces(at, mode).motor) - level_.motor;
-      case Event::touch:
+      case LinearEvent::touch:
         if (!gap || mode.contact != 0) return {};
         return std::abs(at.y.motor - at.y.cart) - 0.5 * gap_;
-      case Event::part:
+      case LinearEvent::part:
         if (!gap || mode.contact == 0) return {};
         return 0.5 * gap_ - mode.contact * (at.y.motor - at.y.cart);
-      case Event::press_turns:
+      case LinearEvent::press_turns:
         if (!gap || mode.contact == 0) return {};
         return (mode.coupled ? -1 : 1) * mode.contact * press(at, mode.contact);
-      case Event::none:
+      case LinearEvent::none:
         break;
     }
     return {};
@@ -126,13 +127,13 @@ class LinearPair {
   }
 
   /// Without friction.
-  Both forces(const Motion& at, const Mode& mode) const {
+  Both forces(const Motion& at, const LinearMode& mode) const {
     const double coupling = mode.coupled ? press(at, mode.contact) : 0;
     return {outer_.cart - damping_.cart * at.v.cart + coupling,
             outer_.motor - damping_.motor * at.v.motor - coupling};
   }
 
-  Both accelerations(const Both& force, const Mode& mode) const {
+  Both accelerations(const Both& force, const LinearMode& mode) const {
     return {mode.cart_stuck ? 0 : force.cart * inverse_mass_.cart,
             mode.motor_stuck ? 0 : force.motor * inverse_mass_.motor};
   }
@@ -183,10 +184,10 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
     double h = std::min(left, step_s_);
     const LinearPair pair(terms_, terms_.beta * target_V_, extra_push_,
                           {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor});
-    const Mode mode = pair.mode(now, state_.contact);
+    const LinearMode mode = pair.mode(now, state_.contact);
     Motion next = pair.after(now, mode, h);
-    Event first = Event::none;
-    for (const Event event : kEvents) {
+    LinearEvent first = LinearEvent::none;
+    for (const LinearEvent event : kEvents) {
       const auto at_end = pair.past(event, next, mode);
       if (!at_end || !(*at_end > 0)) continue;
       first = event;
@@ -195,13 +196,13 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
                      *pair.past(event, now, mode), h);
       next = pair.after(now, mode, h);
     }
-    events = first == Event::none ? 0 : events + 1;
-    if (first == Event::cart_stops) next.v.cart = 0;
-    if (first == Event::motor_stops) next.v.motor = 0;
-    if (first == Event::touch) state_.contact = next.y.motor > next.y.cart ? 1 : -1;
-    if (first == Event::touch || first == Event::part)
+    events = first == LinearEvent::none ? 0 : events + 1;
+    if (first == LinearEvent::cart_stops) next.v.cart = 0;
+    if (first == LinearEvent::motor_stops) next.v.motor = 0;
+    if (first == LinearEvent::touch) state_.contact = next.y.motor > next.y.cart ? 1 : -1;
+    if (first == LinearEvent::touch || first == LinearEvent::part)
       next.y.motor = next.y.cart + 0.5 * terms_.gap * state_.contact;
-    if (first == Event::part) state_.contact = 0;
+    if (first == LinearEvent::part) state_.contact = 0;
     now = next;
     left -= h;
   }

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 enum class Place { free, at_lower, at_upper };
 
-struct Problem {
+struct Quadratic {
   const MatrixXd& A;
   const VectorXd &b, &s;
 
@@ -25,7 +25,7 @@ struct FreePart {
   std::vector<Index> entries;
   VectorXd wanted;
 
-  FreePart(const Problem& problem, const VectorXd& x, const std::vector<Place>& place) {
+  FreePart(const Quadratic& problem, const VectorXd& x, const std::vector<Place>& place) {
     for (Index i = 0; i < x.size(); ++i) {
       if (place[static_cast<std::size_t>(i)] == Place::free) entries.push_back(i);
     }
@@ -48,7 +48,7 @@ struct FreePart {
 
 BoundedSolution minimise_within(const MatrixXd& A, const VectorXd& b, const VectorXd& s,
                                 const VectorXd& lower, const VectorXd& upper) {
-  const Problem problem{A, b, s};
+  const Quadratic problem{A, b, s};
   const Index size = A.cols();
   std::vector<Place> place(static_cast<std::size_t>(size), Place::free);
   const auto at = [&place](Index i) -> Place& { return place[static_cast<std::size_t>(i)]; };

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/relay/angle.hpp"
 #include "host/relay/fft.hpp"
 #include "host/relay/vector_sums.hpp"
 #include "host/vector_clones.hpp"
@@ -13,7 +13,6 @@
 namespace cartwright {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Below this many periods in the record the exact problem is solved at each frequency.
 constexpr double kFewPeriods = 8;
 /// Least number of periods looked for; fewer than one is refused later, but must be found to be refused.

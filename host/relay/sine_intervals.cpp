@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/relay/angle.hpp"
 #include "host/relay/fft.hpp"
 #include "host/relay/periodogram.hpp"
 #include "host/relay/vector_sums.hpp"
@@ -13,8 +14,6 @@
 namespace cartwright {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kConfidence = 0.95;
 /// From here on in periods, a sine is not taken for a part of a slower one on a slope.
 constexpr double kPeriodsWithoutDoubt = 1.5;
@@ -84,7 +83,7 @@ Eigen::MatrixXd with_known_frequency(const Eigen::MatrixXd& covariance) {
 
 double wrapped(double angle_rad) {
   const double turned = std::remainder(angle_rad, kTwoPi);
-  return turned <= -kPi ? turned + kTwoPi : turned;
+  return turned <= -std::numbers::pi ? turned + kTwoPi : turned;
 }
 
 struct Polar {
@@ -120,7 +119,7 @@ Estimate amplitude_estimate(double value, double half_width) {
 
 /// A phase known to worse than half a turn is not known at all.
 Estimate phase_estimate(double value, double half_width) {
-  return half_width < kPi ? Estimate::within(value, half_width) : Estimate{value};
+  return half_width < std::numbers::pi ? Estimate::within(value, half_width) : Estimate{value};
 }
 
 void include(Estimate& estimate, double low, double high) {

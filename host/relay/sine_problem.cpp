@@ -12,7 +12,6 @@ namespace cartwright {
 namespace {
 
 constexpr std::size_t kBlock = 256;
-constexpr double kPi = std::numbers::pi;
 
 /// Coefficients of sin(pi r)/r or cos(pi r) in powers of z = r^2, for |r| <= 1/2: the Taylor series, eleven
 /// terms of which reach 2e-17, economised to fewer (Lanczos): of its last power, the multiple of the
@@ -21,11 +20,11 @@ template <std::size_t kTerms>
 constexpr std::array<double, kTerms> economised(bool cosine) {
   constexpr std::size_t kTaylor = 13;
   std::array<double, kTaylor> c{};
-  double term = cosine ? 1 : kPi;
+  double term = cosine ? 1 : std::numbers::pi;
   for (std::size_t i = 0; i < kTaylor; ++i) {
     c[i] = term;
     const double n = static_cast<double>(2 * i) + (cosine ? 1 : 2);
-    term *= -kPi * kPi / (n * (n + 1));
+    term *= -std::numbers::pi * std::numbers::pi / (n * (n + 1));
   }
   // T*_n(x) on [0, 1]: T*_0 = 1, T*_1 = 2 x - 1, T*_(n+1) = (4 x - 2) T*_n - T*_(n-1).
   std::array<std::array<double, kTaylor>, kTaylor> chebyshev{};

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "host/relay/angle.hpp"
 #include "host/relay/periodogram.hpp"
 #include "host/relay/sine_intervals.hpp"
 #include "host/relay/sine_problem.hpp"
@@ -15,7 +15,6 @@
 namespace cartwright {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr int kMostHarmonics = 20;
 /// A trend belongs to the model from this many standard errors on: by chance once in 2000 records.
 constexpr double kTrendErrors = 3.5;

@@ -4,27 +4,6 @@
 #include <numbers>
 
 namespace cartwright {
-namespace {
-
-/// The x in [0, 1] with I_x(a, b) = p. Newton's method inside a bracket that every step tightens; where it
-/// would leave the bracket, the middle instead, so that it cannot fail.
-double inverse_incomplete_beta(double a, double b, double p) {
-  const double logarithm = std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
-  double low = 0, high = 1, x = a / (a + b);
-  for (int i = 0; i < 200; ++i) {
-    const double away = incomplete_beta(a, b, x) - p;
-    (away < 0 ? low : high) = x;
-    const double density = std::exp(logarithm + (a - 1) * std::log(x) + (b - 1) * std::log1p(-x));
-    const double newton = x - away / density;
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    const bool settled = std::abs(next - x) <= 1e-15 * x;
-    x = next;
-    if (settled || high - low <= 1e-16 * x) break;
-  }
-  return x;
-}
-
-}  // namespace
 
 double incomplete_beta(double a, double b, double x) {
   if (x <= 0) return 0;
@@ -51,6 +30,22 @@ double incomplete_beta(double a, double b, double x) {
     if (i > 0 && std::abs(change - 1) < 1e-15) break;
   }
   return front * (fraction - 1);
+}
+
+double inverse_incomplete_beta(double a, double b, double p) {
+  const double logarithm = std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
+  double low = 0, high = 1, x = a / (a + b);
+  for (int i = 0; i < 200; ++i) {
+    const double away = incomplete_beta(a, b, x) - p;
+    (away < 0 ? low : high) = x;
+    const double density = std::exp(logarithm + (a - 1) * std::log(x) + (b - 1) * std::log1p(-x));
+    const double newton = x - away / density;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const bool settled = std::abs(next - x) <= 1e-15 * x;
+    x = next;
+    if (settled || high - low <= 1e-16 * x) break;
+  }
+  return x;
 }
 
 double student_t(double probability, double degrees) {

@@ -6,6 +6,10 @@ namespace cartwright {
 /// (Continued fraction of Abramowitz and Stegun 26.5.8, evaluated by Lentz's method.)
 double incomplete_beta(double a, double b, double x);
 
+/// The x in [0, 1] with I_x(a, b) = p, for p in (0, 1). Newton's method inside a bracket that every step
+/// tightens; where it would leave the bracket, the middle instead, so that it cannot fail.
+double inverse_incomplete_beta(double a, double b, double p);
+
 /// The z for which a normal variable lies within +-z standard deviations with this probability, below 1: 1.96
 /// for 0.95.
 double normal(double probability);

@@ -57,11 +57,11 @@ TEST(AllocationGuard, SeesAnAllocation) {
 }
 
 TEST(AllocationGuard, NoTickOfABatteryOfAFaultOrOfAChangeOfGainsOrCompensationAllocates) {
-  Model model = TestRig::plain_model();
+  Model model = cart();
   model.set(Parameter::transport_delay, 2e-3).set(Parameter::missed_rate, 1).set(Parameter::missed_burst, 2);
   model.set(Parameter::missed_speed, 0.1);
   RigFile file;
-  put_model(file.settings, TestRig::plain_model());
+  put_model(file.settings, cart());
   file.settings.set(wire::Id::compensation_mode, 2);
   TestRig rig(model, file, 200'000);
   const auto standard = std::make_unique<Programme>(battery(rig.rig));

@@ -17,10 +17,6 @@ namespace {
 
 using wire::Id;
 
-Model cart(double friction = 1) {
-  return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, 0.5 * friction);
-}
-
 RigFile file_with(double mode, const Model& model) {
   RigFile file;
   file.rig.encoder_resolution_m = 1e-6;

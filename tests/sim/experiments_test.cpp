@@ -170,7 +170,7 @@ void expect_the_contracts_law(const RecordingEntry& entry, const std::vector<Log
 
 TEST(Battery, MakesTheTenStandardRecordingsEachByTheContractsLaw) {
   const RigFile file;
-  TestRig rig(TestRig::plain_model(), file, 150'000);
+  TestRig rig(cart(), file, 150'000);
   ASSERT_TRUE(rig.start(battery(rig.rig)));
   ASSERT_TRUE(rig.finish());
   EXPECT_EQ(rig.status().outcome, Outcome::finished) << sentence(rig.status());
@@ -197,7 +197,7 @@ TEST(Battery, ShrinksToAShortRailWithoutTouchingItsEnds) {
   RigFile file;
   file.rig.travel_m = {-0.12, 0.12};
   file.travel_margin_m = 0.005;
-  TestRig rig(TestRig::plain_model(), file, 150'000);
+  TestRig rig(cart(), file, 150'000);
   ASSERT_TRUE(rig.start(battery(rig.rig)));
   ASSERT_TRUE(rig.finish());
   EXPECT_EQ(rig.status().outcome, Outcome::finished) << sentence(rig.status());

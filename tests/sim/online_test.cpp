@@ -13,10 +13,6 @@ namespace {
 
 using wire::Id;
 
-Model cart(double friction = 1) {
-  return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, 0.5 * friction);
-}
-
 /// The repeated track experiment, until so many seconds have been recorded.
 void track(TestRig& rig, double duration_s) {
   const Programme programme = rig.one([&](Settings& s) {

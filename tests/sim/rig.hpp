@@ -9,16 +9,17 @@
 
 namespace cartwright::firmware {
 
+/// The usual cart of these tests, its Coulomb friction times `friction`.
+inline Model cart(double friction = 1) {
+  return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, 0.5 * friction);
+}
+
 /// A whole controller on a simulated cart in virtual time, driven tick by tick from a test.
 class TestRig {
  public:
   static constexpr std::int64_t kPeriod_ns = 1'000'000;
 
-  static Model plain_model() {
-    return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, 0.5);
-  }
-
-  explicit TestRig(const Model& model = plain_model());
+  explicit TestRig(const Model& model = firmware::cart());
   TestRig(const Model& model, const RigFile& file, std::size_t log_rows = 100'000);
 
   void ticks(int count) {

@@ -24,7 +24,7 @@ class WrittenSession : public testing::Test {
 
 TEST_F(WrittenSession, IsReadByTheHostAndItsSimulationRepeatsWhatTheControllerDid) {
   const RigFile file;
-  TestRig rig(TestRig::plain_model(), file, 150'000);
+  TestRig rig(cart(), file, 150'000);
   ASSERT_TRUE(rig.start(battery(rig.rig)));
   ASSERT_TRUE(rig.finish());
   ASSERT_TRUE(write_session(rig.rig, *rig.exchange, directory));
@@ -38,7 +38,7 @@ TEST_F(WrittenSession, IsReadByTheHostAndItsSimulationRepeatsWhatTheControllerDi
     EXPECT_EQ(recording.other_columns.count("i_A"), 0U) << "a column without a number is left out";
     // Limit cycles magnify the rounding of the start position; everything else repeats to within it.
     if (recording.experiment == "relay") continue;
-    const Recording again = simulate(TestRig::plain_model(), session->rig, recording);
+    const Recording again = simulate(cart(), session->rig, recording);
     double sum = 0;
     for (std::size_t i = 0; i < again.size(); ++i) sum += std::pow(again.y_m[i] - recording.y_m[i], 2);
     EXPECT_LT(std::sqrt(sum / static_cast<double>(again.size())), 2.275e-5) << recording.file;
@@ -47,7 +47,7 @@ TEST_F(WrittenSession, IsReadByTheHostAndItsSimulationRepeatsWhatTheControllerDi
 
 TEST_F(WrittenSession, IsNotWrittenWhenTheRingHasLostItsRows) {
   const RigFile file;
-  TestRig rig(TestRig::plain_model(), file, 1000);
+  TestRig rig(cart(), file, 1000);
   ASSERT_TRUE(rig.start(rig.one([](Settings& s) { s.set(wire::Id::experiment_kind, 1); })));
   ASSERT_TRUE(rig.finish());
   const auto written = write_session(rig.rig, *rig.exchange, directory);

@@ -157,7 +157,7 @@ TEST(Supervisor, TheTravelLimitStopsTheCartInsideTheTravelAndItCanBeDrivenBack) 
   RigFile file;
   file.rig.travel_m = {-0.4, 0.15};
   file.travel_margin_m = 0.03;
-  TestRig rig(TestRig::plain_model(), file);
+  TestRig rig(cart(), file);
   // 0.1 m is inside the travel, but with Kp = 60 and no damping the cart overshoots to 0.14 m.
   ASSERT_TRUE(rig.start(a_step(rig)));
   ASSERT_TRUE(rig.finish());
@@ -180,7 +180,7 @@ TEST(Supervisor, AnEndStopIsAFaultOfItsOwn) {
   file.travel_margin_m = 0;
   file.end_stop_m = 0;
   file.rig.travel_m = {-0.4, 0.12};
-  TestRig rig(TestRig::plain_model(), file);
+  TestRig rig(cart(), file);
   ASSERT_TRUE(rig.start(a_step(rig)));
   ASSERT_TRUE(rig.finish());
   EXPECT_EQ(rig.status().fault.fault, Fault::end_stop);

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Model cart() {
+Model viscous_cart() {
   Model model(1.9);
   model.set(Parameter::viscous_coefficient, 5);
   return model;
@@ -22,9 +22,9 @@ TEST(IntervalToml, ComesBackAsWrittenBesideItsModel) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<ParameterInterval> intervals = {{Parameter::voltage_gain, 1.85, 1.95},
                                                     {Parameter::viscous_coefficient, nan, nan}};
-  const std::string text = to_toml(cart()) + intervals_to_toml(intervals);
+  const std::string text = to_toml(viscous_cart()) + intervals_to_toml(intervals);
   ASSERT_TRUE(model_from_toml(text, "m.toml"));
-  const auto again = intervals_from_toml(text, "m.toml", cart());
+  const auto again = intervals_from_toml(text, "m.toml", viscous_cart());
   ASSERT_TRUE(again) << again.error().message;
   ASSERT_EQ(again->size(), 1u);
   EXPECT_EQ((*again)[0].id, Parameter::voltage_gain);
@@ -33,17 +33,17 @@ TEST(IntervalToml, ComesBackAsWrittenBesideItsModel) {
 }
 
 TEST(IntervalToml, NoTableIsNoIntervalsAndNanIsNoBound) {
-  EXPECT_TRUE(intervals_from_toml(to_toml(cart()), "m.toml", cart())->empty());
+  EXPECT_TRUE(intervals_from_toml(to_toml(viscous_cart()), "m.toml", viscous_cart())->empty());
   EXPECT_TRUE(intervals_to_toml({}).empty());
   const auto none =
-      intervals_from_toml("[intervals]\n\"voltage_gain_m_per_s2_V\" = [nan, nan]\n", "m", cart());
+      intervals_from_toml("[intervals]\n\"voltage_gain_m_per_s2_V\" = [nan, nan]\n", "m", viscous_cart());
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty());
 }
 
 TEST(IntervalToml, RefusesWhatIsNoIntervalAndSaysWhere) {
   const auto message = [](const std::string& line) {
-    const auto read = intervals_from_toml("[intervals]\n" + line + "\n", "m.toml", cart());
+    const auto read = intervals_from_toml("[intervals]\n" + line + "\n", "m.toml", viscous_cart());
     return read ? std::string("accepted") : read.error().message;
   };
   EXPECT_THAT(message("\"beta\" = [1, 2]"), HasSubstr("m.toml:2: \"beta\""));

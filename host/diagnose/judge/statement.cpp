@@ -9,6 +9,8 @@
 namespace cartwright {
 namespace {
 
+using P = Parameter;
+
 std::string statement_of_cogging(const Model& m) {
   std::vector<std::string> waves;
   for (const PeriodicTerm& wave : kCoggingWaves) {
@@ -22,7 +24,6 @@ std::string statement_of_cogging(const Model& m) {
 }  // namespace
 
 std::string statement(Term term, const Model& m) {
-  using P = Parameter;
   const auto side = [](double value) { return value > 0 ? "+y" : "-y"; };
   switch (term) {
     case Term::viscous_friction:

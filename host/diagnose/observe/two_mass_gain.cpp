@@ -9,7 +9,7 @@ using P = Parameter;
 
 /// Teeth in contact: their distance is known to a tenth of the reading error.
 constexpr double kTeethVariance = 0.01;
-constexpr double kStartSpeed_per_s = 1e3;  // of the reading error: about a centimetre a second
+constexpr double kStartSpeedOfPair_per_s = 1e3;  // of the reading error: about a centimetre a second
 
 /// Transition over a tick with accelerations linear in the state: to second order, exact enough where
 /// everything stiff is left out.
@@ -47,8 +47,8 @@ TwoMassGain::TwoMassGain(const Model& model, const NoiseModel& noise, double per
   motor_variance_ = std::pow(ratio * period_s, 2);
   const double gap = model[P::backlash_gap] / count_m;
   start_ = Matrix::Zero();
-  start_.diagonal() << 1, std::pow(kStartSpeed_per_s, 2), 1 + gap * gap, std::pow(kStartSpeed_per_s, 2),
-      ratio * ratio;
+  start_.diagonal() << 1, std::pow(kStartSpeedOfPair_per_s, 2), 1 + gap * gap,
+      std::pow(kStartSpeedOfPair_per_s, 2), ratio * ratio;
   restart();
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<Term> kTerms{Term::viscous_friction, Term::coulomb_friction, Term::constant_force};
 
-Model cart() {
+Model pushed_cart() {
   return Model(1.9)
       .set(Parameter::viscous_coefficient, 5)
       .set(Parameter::coulomb_level, 0.5)
@@ -18,7 +18,7 @@ Model cart() {
 }
 
 const Session& session() {
-  static const Session made = SimulatedSession(cart()).add_usual(2).get();
+  static const Session made = SimulatedSession(pushed_cart()).add_usual(2).get();
   return made;
 }
 

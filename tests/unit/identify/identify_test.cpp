@@ -10,10 +10,6 @@ namespace {
 
 using testing::HasSubstr;
 
-Model cart() {
-  return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, 0.5);
-}
-
 Identification fitted(const Session& session, const std::vector<Term>& terms) {
   const auto set = TermSet::create(terms);
   EXPECT_TRUE(set) << set.error().message;

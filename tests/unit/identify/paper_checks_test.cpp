@@ -12,7 +12,7 @@ namespace cartwright {
 namespace {
 
 /// NLm1, Eq. (73).
-Model cart() {
+Model exponential_cart() {
   return Model(1.9165)
       .set(Parameter::exponential_alpha1, 17.3264)
       .set(Parameter::exponential_alpha2, 13.1068)
@@ -21,7 +21,7 @@ Model cart() {
 
 /// The paper's experiment: r = 0.1 m from the start.
 SimulatedSession step(double kp, double kd, double duration_s) {
-  SimulatedSession out{cart()};
+  SimulatedSession out{exponential_cart()};
   out.add(
       "step.csv", {kp, kd}, duration_s, [](double) { return 0.1; }, 0);
   out.edit().recordings.front().experiment = "step";

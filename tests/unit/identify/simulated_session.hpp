@@ -10,6 +10,11 @@
 
 namespace cartwright {
 
+/// The usual cart of these tests.
+inline Model cart(double coulomb_level = 0.5) {
+  return Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::coulomb_level, coulomb_level);
+}
+
 /// Recordings of a simulated cart for tests: the session's own control laws on a model, with an encoder.
 class SimulatedSession {
  public:
