@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/model/plant_step.hpp"
+
 namespace cartwright {
 namespace {
 
@@ -23,8 +25,7 @@ Growth growth(double z) noexcept {
 
 Plant::Plant(const Model& model, const PlantOptions& options)
     : terms_(model, options.disturbance_active),
-      series_(terms_.linear_two_masses ||
-              (options.places_by_steps && terms_.linear_two_masses_but_for_places)),
+      series_(terms_.linear_two_masses || (options.linear_by_steps && terms_.linear_two_masses_by_steps)),
       step_s_(std::min(options.step_s, options.stiff_step_factor *
                                            (series_ ? terms_.longest_series_step_s : terms_.longest_step_s))),
       heating_start_s_(options.heating_start_s) {}
@@ -103,16 +104,11 @@ void Plant::hold(double shaped_V, double duration_s) noexcept {
   const double end = state_.time_s + duration_s;
   if (terms_.linear || series_) {
     terms_.linear ? hold_linear(duration_s) : hold_two_masses_linear(duration_s);
-    state_.armature_V = shaped_V;
     state_.time_s = end;
     return;
   }
-  const auto steps_over = [this](double span_s) {
-    constexpr double kMostSteps = 1e9;
-    return static_cast<int>(std::clamp(std::ceil(span_s / step_s_ - 1e-6), 1.0, kMostSteps));
-  };
   const auto run = [&](double span_s) {
-    const int steps = steps_over(span_s);
+    const int steps = steps_over(span_s, step_s_);
     for (int i = 0; i < steps; ++i) {
       if (terms_.two_masses) {
         hold_two_masses(span_s / steps);
@@ -188,6 +184,7 @@ void Plant::hold_linear(double duration_s) noexcept {
   }
   state_.position_m = state_.motor_position_m = y;
   state_.velocity_m_per_s = state_.motor_velocity_m_per_s = v;
+  state_.armature_V = target_V_;
 }
 
 }  // namespace cartwright

@@ -24,10 +24,11 @@ struct PlantOptions {
   double heating_start_s = 0;      ///< time_s at which the motor was cold
   /// Multiplies the step that stiff terms choose. Observers, corrected every tick, do well with 3.
   double stiff_step_factor = 1;
-  /// Takes what changes with place alone (spot, cogging, spring) where two masses are half way through each
-  /// inner step; between events they are then linear, and take a series as others do. Of a wave of wavenumber
-  /// k that leaves out (k v h)^2/24. For observers.
-  bool places_by_steps = false;
+  /// Makes two masses linear for each inner step h, so that they take a series as others do: what changes
+  /// with place or time counts as it is half way through, what bends with speed by its tangent, the drive by
+  /// its mean. Of a wave of wavenumber k that leaves out (k v h)^2/24, of a law f of speed f'' (a h)^2/6. A
+  /// presliding bristle and rigid contact are integrated all the same. For observers.
+  bool linear_by_steps = false;
 };
 
 /// The cart,

@@ -15,6 +15,13 @@ inline constexpr int kEventsPerStep = 16;
 /// An event moves time on by at least this much.
 inline constexpr double kLeastAdvance_s = 1e-12;
 
+/// How many equal inner steps a span takes. A step may be a tenth longer than it should: ticks come a little
+/// late, and one that does is not worth a step more.
+inline int steps_over(double span_s, double step_s) noexcept {
+  constexpr double kMostSteps = 1e9, kLonger = 0.1;
+  return static_cast<int>(std::clamp(std::ceil(span_s / step_s - kLonger), 1.0, kMostSteps));
+}
+
 /// The fraction of a step at which a quantity changes sign, by a straight line; 1 where it does not.
 inline double sign_change(double p0, double p1) noexcept {
   return p0 * p1 < 0 ? p0 / (p0 - p1) : 1.0;

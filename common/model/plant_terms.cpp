@@ -108,13 +108,11 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   rigid_backlash = gap > 0 && joint.rate_per_s == 0;
   varies_in_time = has_lag || has_heating || has_disturbance;
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;
-  const bool linear_but_for_places = !(varies_in_time || stribeck_excess != 0 || has_exponential ||
-                                       has_current_limit || has_bristle || drag != 0);
-  const bool changes_with_place = spot_peak != 0 || cogging_waves > 0 || spring != 0;
-  linear = linear_but_for_places && !changes_with_place && !two_masses;
-  linear_two_masses_but_for_places =
-      linear_but_for_places && two_masses && !rigid_backlash && viscous_difference == 0;
-  linear_two_masses = linear_two_masses_but_for_places && !changes_with_place;
+  const bool bends = varies_in_time || has_level_shape || cogging_waves > 0 || spring != 0 ||
+                     has_exponential || has_current_limit || has_bristle || drag != 0;
+  linear = !bends && !two_masses;
+  linear_two_masses_by_steps = two_masses && !rigid_backlash && !has_bristle;
+  linear_two_masses = linear_two_masses_by_steps && !bends && viscous_difference == 0;
 
   const double rate = fastest_rate(m, *this);
   const auto longest_step = [rate](double step_times_rate) {
@@ -122,7 +120,10 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   };
   longest_step_s = longest_step(kStepTimesRate);
   longest_series_step_s = longest_step(kSeriesStepTimesRate);
-  if (has_lag) longest_step_s = std::min(longest_step_s, std::max(lag_s, kLeastStep_s));
+  if (has_lag) {
+    for (double* longest_s : {&longest_step_s, &longest_series_step_s})
+      *longest_s = std::min(*longest_s, std::max(lag_s, kLeastStep_s));
+  }
 }
 
 }  // namespace cartwright

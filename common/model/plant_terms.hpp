@@ -45,9 +45,9 @@ struct PlantTerms {
   bool breaks_at_rest;  ///< the force, or its slope, jumps where the velocity changes sign
   bool linear;  ///< one mass with viscous and Coulomb friction and a constant push: solved in closed form
   bool linear_two_masses;  ///< two masses with the same, and a coupling that is not rigid: a series in time
-  bool linear_two_masses_but_for_places;  ///< the same, but for what changes with place alone
-  double longest_step_s;                  ///< resolves the fastest of the model's own motions
-  double longest_series_step_s;           ///< the same, where a series is taken
+  bool linear_two_masses_by_steps;  ///< two masses that a series takes too, where what bends is a tangent
+  double longest_step_s;            ///< resolves the fastest of the model's own motions
+  double longest_series_step_s;     ///< the same, where a series is taken
 
   /// Dead zone, saturation and gain asymmetry: what the amplifier makes of a command.
   double amplifier(double command_V) const noexcept {
@@ -73,6 +73,35 @@ struct PlantTerms {
            damping_share * (damping(v) - back_emf);
   }
 
+  /// A straight line in the speed: at_zero + slope v.
+  struct Tangent {
+    double at_zero, slope;
+  };
+
+  /// The line that touches `damping` at v.
+  Tangent damping_tangent(double v) const noexcept {
+    const double speed = std::abs(v);
+    Tangent line{-drag * speed * v, 2 * drag * speed + viscous * (1 + 0.5 * viscous_difference * sign_of(v))};
+    if (has_exponential) {
+      const double a = alpha1 * std::exp(-alpha2 * speed);
+      line.at_zero += a * alpha2 * speed * v;
+      line.slope += a * (1 - alpha2 * speed) + gamma;
+    }
+    return line;
+  }
+
+  /// The line that touches `level`, as it goes with the amount of the speed, at v.
+  Tangent level_tangent(double y, double v) const noexcept {
+    Tangent line{level_of_place(y), 0};
+    if (stribeck_excess != 0) {
+      const double x = std::abs(v) * stribeck_inverse_speed;
+      const double excess = stribeck_excess * std::exp(-x * x);
+      line.at_zero += excess * (1 + 2 * x * x);
+      line.slope = -2 * x * excess * stribeck_inverse_speed;
+    }
+    return line;
+  }
+
   /// By how much drive less back-EMF is beyond the current limit: the force has a corner where this changes
   /// sign.
   double over_current(double drive, double v) const noexcept {
@@ -86,17 +115,16 @@ struct PlantTerms {
 
   /// Level of friction: what opposes motion, and what it takes to start.
   double level(double y, double v) const noexcept {
-    double a = coulomb;
-    if (!has_level_shape) return a;
-    if (stribeck_excess != 0) {
-      const double x = v * stribeck_inverse_speed;
-      a += stribeck_excess * std::exp(-x * x);
-    }
-    if (spot_peak != 0) {
-      const double x = (y - spot_centre) * spot_inverse_width;
-      a += spot_peak * std::exp(-0.5 * x * x);
-    }
-    return a;
+    if (!has_level_shape) return coulomb;
+    const double x = v * stribeck_inverse_speed;
+    return level_of_place(y) + (stribeck_excess != 0 ? stribeck_excess * std::exp(-x * x) : 0);
+  }
+
+  /// Of the level, what the speed does not change.
+  double level_of_place(double y) const noexcept {
+    if (spot_peak == 0) return coulomb;
+    const double x = (y - spot_centre) * spot_inverse_width;
+    return coulomb + spot_peak * std::exp(-0.5 * x * x);
   }
 
   double pushes(double y, double time_s) const noexcept {

@@ -22,6 +22,12 @@ struct Both {
 
 struct Motion {
   Both y, v;
+  double s = 0;  ///< time into the step
+};
+
+/// The drive during a step: at_start + slope s.
+struct DriveLine {
+  double at_start, slope;
 };
 
 /// How friction and contact act until the next event.
@@ -39,15 +45,32 @@ constexpr std::array kEvents{LinearEvent::cart_stops,   LinearEvent::motor_stops
 
 class LinearPair {
  public:
-  LinearPair(const PlantTerms& terms, double drive, double push, const Both& place)
+  /// Linear from `now` on; `place` and `time_s` are half way through the step.
+  LinearPair(const PlantTerms& terms, const Motion& now, const DriveLine& drive, double push,
+             const Both& place, double time_s)
       : stiffness_(terms.coupling_stiffness),
         coupling_damping_(terms.coupling_damping),
         gap_(terms.gap),
         inverse_mass_{1 / terms.load_share, 1 / (1 - terms.load_share)},
-        outer_{terms.pushes(place.cart, 0) + push, drive},
-        damping_{terms.load_damping_share * terms.viscous, (1 - terms.load_damping_share) * terms.viscous},
-        level_{terms.load_friction_share * terms.level(place.cart, 0),
-               (1 - terms.load_friction_share) * terms.level(place.motor, 0)} {}
+        outer_{terms.pushes(place.cart, time_s) + push, drive.at_start},
+        drive_slope_(drive.slope) {
+    const Resistance cart =
+        resistance(terms, now.v.cart, place.cart, terms.load_damping_share, terms.load_friction_share);
+    const Resistance motor = resistance(terms, now.v.motor, place.motor, 1 - terms.load_damping_share,
+                                        1 - terms.load_friction_share);
+    outer_.cart -= cart.at_zero;
+    outer_.motor -= motor.at_zero;
+    damping_ = {cart.slope, motor.slope};
+    level_ = {cart.level, motor.level};
+    if (!terms.has_current_limit) return;
+    if (terms.over_current(drive.at_start, now.v.motor) < 0) {
+      damping_.motor += terms.viscous;
+    } else {
+      const double side = sign_of(drive.at_start - terms.viscous * now.v.motor);
+      outer_.motor += side * terms.current_limit - drive.at_start;
+      drive_slope_ = 0;
+    }
+  }
 
   LinearMode mode(const Motion& at, int contact) const {
     LinearMode m;
@@ -67,6 +90,7 @@ class LinearPair {
   Motion after(const Motion& at, const LinearMode& mode, double h) const {
     const Both net = forces(at, mode);
     Motion out = at;
+    out.s += h;
     Both v = at.v;
     Both a = accelerations({net.cart - mode.friction.cart, net.motor - mode.friction.motor}, mode);
     double weight = h;
@@ -77,8 +101,9 @@ class LinearPair {
       out.v.motor += weight * a.motor;
       if (n == kSeriesOrder) return out;
       const double coupling = mode.coupled ? spring(v, a) : 0;
-      const Both jerk =
-          accelerations({coupling - damping_.cart * a.cart, -coupling - damping_.motor * a.motor}, mode);
+      const double drive = n == 1 ? drive_slope_ : 0;
+      const Both jerk = accelerations(
+          {coupling - damping_.cart * a.cart, drive - coupling - damping_.motor * a.motor}, mode);
       v = a;
       a = jerk;
       weight *= h / (n + 1);
@@ -117,6 +142,20 @@ class LinearPair {
   }
 
  private:
+  /// What opposes one mass: at_zero + slope v, and a level of friction.
+  struct Resistance {
+    double at_zero, slope, level;
+  };
+
+  static Resistance resistance(const PlantTerms& terms, double v, double y, double damping_share,
+                               double friction_share) {
+    PlantTerms::Tangent damping = terms.damping_tangent(v);
+    if (terms.has_current_limit) damping.slope -= terms.viscous;  // back-EMF is the motor's alone
+    const PlantTerms::Tangent level = terms.level_tangent(y, v);
+    return {damping_share * damping.at_zero, damping_share * damping.slope + friction_share * level.slope,
+            friction_share * level.at_zero};
+  }
+
   double spring(const Both& stretch, const Both& rate) const {
     return stiffness_ * (stretch.motor - stretch.cart) + coupling_damping_ * (rate.motor - rate.cart);
   }
@@ -130,7 +169,7 @@ class LinearPair {
   Both forces(const Motion& at, const LinearMode& mode) const {
     const double coupling = mode.coupled ? press(at, mode.contact) : 0;
     return {outer_.cart - damping_.cart * at.v.cart + coupling,
-            outer_.motor - damping_.motor * at.v.motor - coupling};
+            outer_.motor + drive_slope_ * at.s - damping_.motor * at.v.motor - coupling};
   }
 
   Both accelerations(const Both& force, const LinearMode& mode) const {
@@ -140,6 +179,7 @@ class LinearPair {
 
   double stiffness_, coupling_damping_, gap_;
   Both inverse_mass_, outer_, damping_, level_;
+  double drive_slope_;
 };
 
 /// How long until just past a root of `past`, which is greater than zero after h: the method of false
@@ -181,9 +221,12 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
   double left = duration_s;
   int events = 0;
   while (left > kLeastAdvance_s) {
-    double h = std::min(left, step_s_);
-    const LinearPair pair(terms_, terms_.beta * target_V_, extra_push_,
-                          {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor});
+    double h = left / steps_over(left, step_s_);
+    Drive d = drive(h);
+    const double mean = d.middle + (d.start - 2 * d.middle + d.end) / 6;
+    const LinearPair pair(terms_, now, {mean - 0.5 * (d.end - d.start), (d.end - d.start) / h}, extra_push_,
+                          {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor},
+                          state_.time_s + 0.5 * h);
     const LinearMode mode = pair.mode(now, state_.contact);
     Motion next = pair.after(now, mode, h);
     LinearEvent first = LinearEvent::none;
@@ -195,6 +238,7 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
       h = root_after([&](double x) { return *pair.past(event, pair.after(now, mode, x), mode); },
                      *pair.past(event, now, mode), h);
       next = pair.after(now, mode, h);
+      d = drive(h);
     }
     events = first == LinearEvent::none ? 0 : events + 1;
     if (first == LinearEvent::cart_stops) next.v.cart = 0;
@@ -204,6 +248,9 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
       next.y.motor = next.y.cart + 0.5 * terms_.gap * state_.contact;
     if (first == LinearEvent::part) state_.contact = 0;
     now = next;
+    now.s = 0;
+    state_.armature_V = d.armature_V;
+    state_.time_s += h;
     left -= h;
   }
   state_.position_m = now.y.cart;

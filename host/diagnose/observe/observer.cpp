@@ -55,7 +55,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
   PlantOptions plant_options;
   plant_options.step_s = options.step_s;
   plant_options.stiff_step_factor = kStiffStepFactor;
-  plant_options.places_by_steps = true;
+  plant_options.linear_by_steps = true;
   plant_options.disturbance_active = model.disturbance_recording == recording.file;
   plant_options.heating_start_s = recording.t_s.front();
   Plant plant(model, plant_options);

@@ -10,6 +10,8 @@ using P = Parameter;
 /// Teeth in contact: their distance is known to a tenth of the reading error.
 constexpr double kTeethVariance = 0.01;
 constexpr double kStartSpeedOfPair_per_s = 1e3;  // of the reading error: about a centimetre a second
+/// A covariance moves no more where a tick changes no variance by more than this part of it.
+constexpr double kSteady = 1e-6;
 
 /// Transition over a tick with accelerations linear in the state: to second order, exact enough where
 /// everything stiff is left out.
@@ -54,9 +56,12 @@ TwoMassGain::TwoMassGain(const Model& model, const NoiseModel& noise, double per
 
 void TwoMassGain::restart() {
   p_ = start_;
+  steady_ = false;
 }
 
 TwoMassGain::Gain TwoMassGain::step(bool in_contact) {
+  if (steady_ && in_contact == in_contact_) return gain_;
+  const Matrix before = p_;
   const Matrix& f = in_contact ? together_ : apart_;
   p_ = f * p_ * f.transpose();
   p_(4, 4) += disturbance_variance_;
@@ -69,7 +74,11 @@ TwoMassGain::Gain TwoMassGain::step(bool in_contact) {
   const Vector gain = p_.col(0) / s;
   p_ -= gain * p_.row(0);
   p_ = 0.5 * (p_ + p_.transpose().eval());
-  return {gain[0], gain[1], gain[2], gain[3], gain[4], s};
+  steady_ = in_contact == in_contact_ &&
+            ((p_ - before).diagonal().array().abs() <= kSteady * before.diagonal().array()).all();
+  in_contact_ = in_contact;
+  gain_ = {gain[0], gain[1], gain[2], gain[3], gain[4], s};
+  return gain_;
 }
 
 }  // namespace cartwright

@@ -37,6 +37,8 @@ class TwoMassGain {
 
   Matrix apart_, together_, start_, p_;
   double decay_, disturbance_variance_, motor_variance_;
+  Gain gain_{};
+  bool in_contact_ = false, steady_ = false;  // steady: the covariance no longer moves in this mode
 };
 
 }  // namespace cartwright
