@@ -13,8 +13,6 @@ namespace {
 using P = Parameter;
 
 constexpr double kSlowCorrelation_s = 0.003;
-constexpr double kMostData_s = 18;
-constexpr int kMostEvaluations = 700;
 /// First steps: of the mass's share along the way that it can hardly be told on, of what else the teeth have,
 /// and of all other numbers as a part of themselves.
 constexpr double kStepOfShare = 0.1, kStepOfTeeth = 0.05, kStepOfRest = 0.01;
@@ -49,15 +47,16 @@ NoiseModel sharp(NoiseModel noise, double share_of_disturbance) {
 }
 
 Model evolve_gap(const Session& session, const Model& from, const NoiseModel& noise,
-                 const std::vector<FreeParameter>& free, FitOptions options, unsigned threads) {
-  const Session some = one_of_each_kind(session, kMostData_s);
+                 const std::vector<FreeParameter>& free, FitOptions options, const EvolutionEffort& effort,
+                 unsigned threads) {
+  const Session some = one_of_each_kind(session, effort.most_data_s);
   options.threads = 1;
   const auto cost = [&](const Eigen::VectorXd& steps) {
     return -log_likelihood(counted_errors(some, moved(from, free, steps), noise, options), options.outlier_m);
   };
   EvolutionOptions search;
   search.threads = threads;
-  search.most_evaluations = kMostEvaluations;
+  search.most_evaluations = effort.most_evaluations;
   const auto numbers = static_cast<Eigen::Index>(free.size());
   return moved(from, free, evolve(cost, Eigen::VectorXd::Zero(numbers), search));
 }

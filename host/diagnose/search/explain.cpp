@@ -8,6 +8,7 @@
 #include "host/diagnose/search/evolve_gap.hpp"
 #include "host/diagnose/search/plausible.hpp"
 #include "host/diagnose/search/promises.hpp"
+#include "host/diagnose/search/race_beside_gap.hpp"
 #include "host/diagnose/search/worth_fitting.hpp"
 #include "host/parallel.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Ends a search that keeps finding what it drops again.
 constexpr std::size_t kMostStages = 8;
+/// What is found third, a gap among them, mostly makes up for what the numbers of the gap still lack.
+constexpr std::size_t kMostEffectsWithGap = 2;
 constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
 constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
@@ -46,8 +49,7 @@ class Explainer {
     search.refitted.fit = fit(session_, search.refitted.fit.model, search.refitted.fit.noise,
                               search.refitted.fit.free, fit_options_);
     search.best = search.refitted;
-    for (std::size_t stage = 0;
-         stage < kMostStages && search.best.effects_beyond_every_cart() < options_.most_effects; ++stage) {
+    for (std::size_t stage = 0; stage < kMostStages && may_have_more(search.best); ++stage) {
       report("looking for what was left out",
              std::min(0.95,
                       (0.2 + static_cast<double>(stage)) / static_cast<double>(options_.most_effects + 1)));
@@ -84,6 +86,11 @@ class Explainer {
     return free;
   }
 
+  bool may_have_more(const Explanation& found) const {
+    const std::size_t most = found.has(Term::backlash) ? kMostEffectsWithGap : options_.most_effects;
+    return found.effects_beyond_every_cart() < std::min(most, options_.most_effects);
+  }
+
   /// What a further effect must gain.
   static double least_further_gain(double so_far) { return std::max(kLeastGain, kLeastShareOfGain * so_far); }
 
@@ -110,13 +117,22 @@ class Explainer {
     FitOptions sketch = options_of_sketch();
     if (base.has_two_masses()) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
     std::vector<Explanation> tried(chosen.size());
-    parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
+    std::vector<Fit> fits(chosen.size());
+    if (base.has(Term::backlash)) {
+      fits = race_beside_gap(data, chosen, base.fit.log_likelihood + kSketchNearEnough * to_reach,
+                             with_kinks(base.fit.model, sketch), options_.threads);
+    } else {
+      parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
+        fits[i] = fit(data, chosen[i].start, chosen[i].noise.value_or(base.fit.noise), chosen[i].free,
+                      with_kinks(chosen[i].start, sketch));
+      });
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
       tried[i].effects = base.effects;
       tried[i].effects.push_back(chosen[i].term);
       tried[i].jumps = base.jumps;
-      tried[i].fit = fit(data, chosen[i].start, chosen[i].noise.value_or(base.fit.noise), chosen[i].free,
-                         with_kinks(chosen[i].start, sketch));
-    });
+      tried[i].fit = std::move(fits[i]);
+    }
     if (lost) tried.push_back(*lost);
     tried = best_per_term(std::move(tried));
     finish_best(tried, base.score(), least_gain);
@@ -234,17 +250,17 @@ class Explainer {
     return true;
   }
 
-  /// What was added beside a gap moves the gap's own numbers, and slopes do not lead there. What that gains
-  /// is the gap's.
+  /// Lost counts found beside a gap move the gap's own numbers, and slopes do not lead there. What that gains
+  /// is the gap's. What else is found beside a gap has evolved with it.
   void evolve_again(Search& search) const {
     const Explanation& found = search.best;
     const auto gap = std::find_if(search.contests.begin(), search.contests.end(),
                                   [](const Contest& one) { return one.chosen == Term::backlash; });
-    if (gap == search.contests.end() || found.effects.back() == Term::backlash) return;
+    if (gap == search.contests.end() || found.effects.back() != Term::encoder_missed_counts) return;
     const Session data = without_jumps(session_, found.jumps);
     const FitOptions options = with_kinks(found.fit.model, fit_options_);
-    const Model start = evolve_gap(data, found.fit.model, sharp(found.fit.noise, kFinerDisturbance),
-                                   found.fit.free, options, options_.threads);
+    const Model start =
+        evolve_gap(data, found.fit.model, kSharpNoise, found.fit.free, options, kGapBeside, options_.threads);
     Explanation evolved = found;
     evolved.fit = fit(data, start, found.fit.noise, found.fit.free, options);
     const double better = evolved.score() - found.score();

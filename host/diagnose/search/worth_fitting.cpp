@@ -13,7 +13,7 @@ constexpr std::size_t kTermsFittedSlow = 2;  // the same on top of two masses, w
 /// With so many effects found, two masses would be the third; they cost more than all other candidates
 /// together.
 constexpr std::size_t kEffectsBeforeTwoMasses = 2;
-constexpr std::size_t kStartsFitted = 2;    // most starts of one term
+constexpr std::size_t kStartsFitted = 2;    // most starts of one term; beside a gap it evolves from one
 constexpr double kLeastPromise = 3.0;       // nats, to be fitted at all
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise
 
@@ -40,6 +40,7 @@ bool is_gap(const Promise& promise) {
 std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double least_gain,
                                    const Explanation& base) {
   const std::size_t most_terms = base.has_two_masses() ? kTermsFittedSlow : kTermsFitted;
+  const std::size_t most_starts = base.has(Term::backlash) ? 1 : kStartsFitted;
   const bool no_gap = gives_rather_than_plays(promises);
   std::vector<Promise> chosen;
   std::map<Term, std::size_t> starts;
@@ -55,7 +56,7 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
     if (is_gap(promise) && no_gap) continue;
     if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
     // A second start is worth its time only where it promises nearly as much.
-    if (starts[promise.term] >= kStartsFitted) continue;
+    if (starts[promise.term] >= most_starts) continue;
     if (starts[promise.term] > 0 && !many_minima(promise.term)) continue;
     ++starts[promise.term];
     chosen.push_back(promise);
