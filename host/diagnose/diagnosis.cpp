@@ -335,6 +335,12 @@ class Diagnostician {
     report("looking for an experiment that decides", 0.95);
     result_.next_experiment =
         next_experiment(session_.rig, *chosen, *rival, facts_of(used), fit_options_, options_.threads);
+    if (!result_.next_experiment && rival != &result_.search.refitted) {
+      result_.remarks.push_back(fmt::format(
+          "No experiment about position zero, within this rig's travel and voltage, is likely to tell {} "
+          "from {}.",
+          info(chosen->effects.back()).name, info(rival->effects.back()).name));
+    }
   }
 
   void name_parameters() {

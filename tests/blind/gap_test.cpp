@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/diagnose/search/evolve_gap.hpp"
+#include "host/diagnose/search/race_beside_gap.hpp"
+#include "tests/blind/concealed.hpp"
 #include "tests/blind/outcome.hpp"
 
 namespace cartwright::blind {
@@ -18,6 +22,37 @@ TEST(Gap, IsLookedForAgainOnceWhatIsBesideItIsFound) {
   ASSERT_NE(gap, outcome.parameters.end());
   EXPECT_LT(gap->relative_error, 0.1);
   EXPECT_TRUE(gap->covered);
+}
+
+/// The start is what a search for the gap alone found on this cart: half the gap, less than half of the
+/// share. From there slopes lead nowhere near the truth.
+TEST(Gap, EvolvesWithWhatIsBesideItWhereSlopesLeadNowhere) {
+  using P = Parameter;
+  const Case asked{{"backlash", "asymmetric_viscous_friction"}, Size::medium, 741};
+  const Session session = question_of(asked).session;
+  Promise promise{Term::asymmetric_viscous_friction, Model(1.696), {}};
+  promise.start.set(P::viscous_coefficient, 6.589)
+      .set(P::coulomb_level, 0.332)
+      .set(P::backlash_gap, 2.4e-4)
+      .set(P::backlash_load_share, 0.268)
+      .set(P::backlash_load_friction_share, 0.283)
+      .set(P::backlash_load_damping_share, 0.138)
+      .set(P::backlash_contact_resonance, 288)
+      .set(P::backlash_contact_damping_ratio, 0.2)
+      .set(P::asymmetric_viscous_difference, 0.04);
+  promise.free = free_parameters(promise.start, facts_of(session));
+  FitOptions options;
+  options.difference_step = kStepOverKinks;
+  options.most_rounds = 1;
+  options.covariance = false;
+  options.threads = 2;
+  const Fit slopes = fit(session, promise.start, {6.7e4, 2.7e-4}, promise.free, options);
+  const Fit raced = race_beside_gap(session, {promise}, slopes.log_likelihood, options, 2).front();
+  EXPECT_GT(raced.log_likelihood, slopes.log_likelihood + 1000);
+  const double truth = draw(asked.effects, asked.size, asked.seed, asked.instruments)
+                           .truth.at("asymmetric_viscous_friction.relative_difference");
+  EXPECT_NEAR(raced.model[P::asymmetric_viscous_difference], truth, 0.1 * truth);
+  EXPECT_GT(std::abs(slopes.model[P::asymmetric_viscous_difference] - truth), 0.5 * truth);
 }
 
 }  // namespace

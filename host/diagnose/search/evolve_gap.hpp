@@ -12,12 +12,15 @@ struct EvolutionEffort {
   int most_evaluations;
 };
 
-/// A gap alone: little is to be found, and it is to be found exactly.
-inline constexpr EvolutionEffort kGapAlone{18, 700};
-/// A gap beside something else: its numbers may be far from where they were without it, and everything else
-/// with them. Of carts of our own (draws 629, 634, 680, 741) 3000 evaluations over half the data found all
-/// four, 1500 over all of it one.
-inline constexpr EvolutionEffort kGapBeside{9, 3000};
+/// Near to where a gap's numbers are, to find them exactly.
+inline constexpr EvolutionEffort kGapNear{18, 700};
+/// Beside an effect that was missing so far they may be far, and everything else with them: on carts of our
+/// own (draws 629, 634, 680, 741) 3000 evaluations over half the data came near to all four, 1500 over all of
+/// it to one.
+inline constexpr EvolutionEffort kGapFar{9, 2400};
+
+/// Share of the disturbance that is left once a gap's size, or what is beside it, is in the model.
+inline constexpr double kFinerDisturbance = 0.33;
 
 /// The noise to look for a gap's numbers with: so much of the disturbance, and slower, so that what is sharp
 /// in the errors is the gap's.

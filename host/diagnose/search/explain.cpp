@@ -250,17 +250,17 @@ class Explainer {
     return true;
   }
 
-  /// Lost counts found beside a gap move the gap's own numbers, and slopes do not lead there. What that gains
-  /// is the gap's. What else is found beside a gap has evolved with it.
+  /// What was added beside a gap moves the gap's own numbers, and slopes do not lead there. What that gains
+  /// is the gap's.
   void evolve_again(Search& search) const {
     const Explanation& found = search.best;
     const auto gap = std::find_if(search.contests.begin(), search.contests.end(),
                                   [](const Contest& one) { return one.chosen == Term::backlash; });
-    if (gap == search.contests.end() || found.effects.back() != Term::encoder_missed_counts) return;
+    if (gap == search.contests.end() || found.effects.back() == Term::backlash) return;
     const Session data = without_jumps(session_, found.jumps);
     const FitOptions options = with_kinks(found.fit.model, fit_options_);
-    const Model start =
-        evolve_gap(data, found.fit.model, kSharpNoise, found.fit.free, options, kGapBeside, options_.threads);
+    const Model start = evolve_gap(data, found.fit.model, sharp(found.fit.noise, kFinerDisturbance),
+                                   found.fit.free, options, kGapNear, options_.threads);
     Explanation evolved = found;
     evolved.fit = fit(data, start, found.fit.noise, found.fit.free, options);
     const double better = evolved.score() - found.score();

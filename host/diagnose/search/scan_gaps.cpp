@@ -17,8 +17,8 @@ constexpr double kRatioOfGaps = 1.2;
 constexpr double kLittleData_s = 12;
 /// A fit that lacks a gap calls its impacts disturbance; with that much of it no gap would show.
 constexpr double kMostDisturbance_per_s2 = 3e4;
-/// Once the gap's size is found less of it is left, and less again with its other numbers.
-constexpr double kFinerDisturbance = 0.33, kFinestDisturbance = 0.5;
+/// Once the gap's other numbers are found less of it is left.
+constexpr double kFinestDisturbance = 0.5;
 constexpr int kIterationsOfSketch = 4, kIterationsOfSize = 8;
 constexpr std::size_t kLinesKept = 2;  // once sketched
 constexpr double kMostShare = 0.7;     // of the mass, on the cart's side
@@ -96,9 +96,9 @@ std::optional<Promise> scan_gaps(const Session& session, const Fit& base, const 
   // slower, so that what is sharp in the errors is the gap's.
   noise.disturbance_per_reading_per_s2 *= kFinerDisturbance;
   Promise found = from;
-  found.start = evolve_gap(session, best.model, noise, from.free, options, kGapAlone, threads);
+  found.start = evolve_gap(session, best.model, noise, from.free, options, kGapNear, threads);
   noise = sharp(noise, kFinestDisturbance);
-  found.start = evolve_gap(session, found.start, noise, from.free, options, kGapAlone, threads);
+  found.start = evolve_gap(session, found.start, noise, from.free, options, kGapNear, threads);
   found.noise = noise;
   return found;
 }
