@@ -1,8 +1,8 @@
 // Two masses whose forces are linear between events, or taken as linear for a step: the state after a step is
 // a Taylor series, and events are roots along it.
-#include <array>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "common/model/plant_step.hpp"
 
@@ -39,9 +39,10 @@ struct LinearMode {
 };
 
 enum class LinearEvent { none, cart_stops, motor_stops, cart_starts, motor_starts, touch, part, press_turns };
-constexpr std::array kEvents{LinearEvent::cart_stops,   LinearEvent::motor_stops, LinearEvent::cart_starts,
-                             LinearEvent::motor_starts, LinearEvent::touch,       LinearEvent::part,
-                             LinearEvent::press_turns};
+/// An event known when this is compiled: asked for at every step, one that is not would cost more than the
+/// step.
+template <LinearEvent event>
+using Which = std::integral_constant<LinearEvent, event>;
 
 class LinearPair {
  public:
@@ -111,32 +112,23 @@ class LinearPair {
   }
 
   /// Greater than zero once the event has happened; none where it cannot.
-  std::optional<double> past(LinearEvent event, const Motion& at, const LinearMode& mode) const {
+  template <LinearEvent event>
+  std::optional<double> past(const Motion& at, const LinearMode& mode) const {
     const bool gap = gap_ > 0;
-    switch (event) {
-      case LinearEvent::cart_stops:
-        if (mode.friction.cart == 0) return {};
-        return -mode.friction.cart * at.v.cart;
-      case LinearEvent::motor_stops:
-        if (mode.friction.motor == 0) return {};
-        return -mode.friction.motor * at.v.motor;
-      case LinearEvent::cart_starts:
-        if (!mode.cart_stuck) return {};
-        return std::abs(forces(at, mode).cart) - level_.cart;
-      case LinearEvent::motor_starts:
-        if (!mode.motor_stuck) return {};
-        return std::abs(forces(at, mode).motor) - level_.motor;
-      case LinearEvent::touch:
-        if (!gap || mode.contact != 0) return {};
-        return std::abs(at.y.motor - at.y.cart) - 0.5 * gap_;
-      case LinearEvent::part:
-        if (!gap || mode.contact == 0) return {};
-        return 0.5 * gap_ - mode.contact * (at.y.motor - at.y.cart);
-      case LinearEvent::press_turns:
-        if (!gap || mode.contact == 0) return {};
-        return (mode.coupled ? -1 : 1) * mode.contact * press(at, mode.contact);
-      case LinearEvent::none:
-        break;
+    if constexpr (event == LinearEvent::cart_stops) {
+      if (mode.friction.cart != 0) return -mode.friction.cart * at.v.cart;
+    } else if constexpr (event == LinearEvent::motor_stops) {
+      if (mode.friction.motor != 0) return -mode.friction.motor * at.v.motor;
+    } else if constexpr (event == LinearEvent::cart_starts) {
+      if (mode.cart_stuck) return std::abs(forces(at, mode).cart) - level_.cart;
+    } else if constexpr (event == LinearEvent::motor_starts) {
+      if (mode.motor_stuck) return std::abs(forces(at, mode).motor) - level_.motor;
+    } else if constexpr (event == LinearEvent::touch) {
+      if (gap && mode.contact == 0) return std::abs(at.y.motor - at.y.cart) - 0.5 * gap_;
+    } else if constexpr (event == LinearEvent::part) {
+      if (gap && mode.contact != 0) return 0.5 * gap_ - mode.contact * (at.y.motor - at.y.cart);
+    } else if constexpr (event == LinearEvent::press_turns) {
+      if (gap && mode.contact != 0) return (mode.coupled ? -1 : 1) * mode.contact * press(at, mode.contact);
     }
     return {};
   }
@@ -230,16 +222,23 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
     const LinearMode mode = pair.mode(now, state_.contact);
     Motion next = pair.after(now, mode, h);
     LinearEvent first = LinearEvent::none;
-    for (const LinearEvent event : kEvents) {
-      const auto at_end = pair.past(event, next, mode);
-      if (!at_end || !(*at_end > 0)) continue;
+    const auto consider = [&]<LinearEvent event>(Which<event>) {
+      const auto at_end = pair.past<event>(next, mode);
+      if (!at_end || !(*at_end > 0)) return;
       first = event;
-      if (events >= kEventsPerStep) continue;  // too many to locate: it happens at the end
-      h = root_after([&](double x) { return *pair.past(event, pair.after(now, mode, x), mode); },
-                     *pair.past(event, now, mode), h);
+      if (events >= kEventsPerStep) return;  // too many to locate: it happens at the end
+      h = root_after([&](double x) { return *pair.past<event>(pair.after(now, mode, x), mode); },
+                     *pair.past<event>(now, mode), h);
       next = pair.after(now, mode, h);
       d = drive(h);
-    }
+    };
+    consider(Which<LinearEvent::cart_stops>{});
+    consider(Which<LinearEvent::motor_stops>{});
+    consider(Which<LinearEvent::cart_starts>{});
+    consider(Which<LinearEvent::motor_starts>{});
+    consider(Which<LinearEvent::touch>{});
+    consider(Which<LinearEvent::part>{});
+    consider(Which<LinearEvent::press_turns>{});
     events = first == LinearEvent::none ? 0 : events + 1;
     if (first == LinearEvent::cart_stops) next.v.cart = 0;
     if (first == LinearEvent::motor_stops) next.v.motor = 0;
