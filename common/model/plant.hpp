@@ -26,7 +26,7 @@ struct PlantOptions {
   double stiff_step_factor = 1;
   /// Makes two masses linear for each inner step h, so that they take a series as others do: what changes
   /// with place or time counts as it is half way through, what bends with speed by its tangent, the drive by
-  /// its mean. Of a wave of wavenumber k that leaves out (k v h)^2/24, of a law f of speed f'' (a h)^2/6. A
+  /// a line. Of a wave of wavenumber k that leaves out (k v h)^2/24, of a law f of speed f'' (a h)^2/6. A
   /// presliding bristle and rigid contact are integrated all the same. For observers.
   bool linear_by_steps = false;
 };

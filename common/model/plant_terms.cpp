@@ -115,15 +115,12 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   linear_two_masses = linear_two_masses_by_steps && !bends && viscous_difference == 0;
 
   const double rate = fastest_rate(m, *this);
-  const auto longest_step = [rate](double step_times_rate) {
-    return rate > 0 ? std::max(step_times_rate / rate, kLeastStep_s) : kInfinity;
+  const double step_of_lag_s = has_lag ? std::max(lag_s, kLeastStep_s) : kInfinity;
+  const auto longest_step = [&](double step_times_rate) {
+    return rate > 0 ? std::min(step_of_lag_s, std::max(step_times_rate / rate, kLeastStep_s)) : step_of_lag_s;
   };
   longest_step_s = longest_step(kStepTimesRate);
   longest_series_step_s = longest_step(kSeriesStepTimesRate);
-  if (has_lag) {
-    for (double* longest_s : {&longest_step_s, &longest_series_step_s})
-      *longest_s = std::min(*longest_s, std::max(lag_s, kLeastStep_s));
-  }
 }
 
 }  // namespace cartwright

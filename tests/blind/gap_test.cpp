@@ -24,9 +24,9 @@ TEST(Gap, IsLookedForAgainOnceWhatIsBesideItIsFound) {
   EXPECT_TRUE(gap->covered);
 }
 
-/// The start is what a search for the gap alone found on this cart: half the gap, less than half of the
-/// share. From there slopes lead nowhere near the truth.
-TEST(Gap, EvolvesWithWhatIsBesideItWhereSlopesLeadNowhere) {
+/// The start and its noise are what a search for the gap alone found on this cart: half the gap, less than
+/// half of the share. With that noise slopes lead nowhere near the truth; the race has a small disturbance.
+TEST(Gap, RaceFindsWhatIsBesideItWhereSlopesWithTheNoiseFoundDoNot) {
   using P = Parameter;
   const Case asked{{"backlash", "asymmetric_viscous_friction"}, Size::medium, 741};
   const Session session = question_of(asked).session;

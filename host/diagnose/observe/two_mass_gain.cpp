@@ -61,7 +61,7 @@ void TwoMassGain::restart() {
 
 TwoMassGain::Gain TwoMassGain::step(bool in_contact) {
   if (steady_ && in_contact == in_contact_) return gain_;
-  const Matrix before = p_;
+  const Vector before = p_.diagonal();
   const Matrix& f = in_contact ? together_ : apart_;
   p_ = f * p_ * f.transpose();
   p_(4, 4) += disturbance_variance_;
@@ -74,8 +74,8 @@ TwoMassGain::Gain TwoMassGain::step(bool in_contact) {
   const Vector gain = p_.col(0) / s;
   p_ -= gain * p_.row(0);
   p_ = 0.5 * (p_ + p_.transpose().eval());
-  steady_ = in_contact == in_contact_ &&
-            ((p_ - before).diagonal().array().abs() <= kSteady * before.diagonal().array()).all();
+  steady_ =
+      in_contact == in_contact_ && ((p_.diagonal() - before).array().abs() <= kSteady * before.array()).all();
   in_contact_ = in_contact;
   gain_ = {gain[0], gain[1], gain[2], gain[3], gain[4], s};
   return gain_;
