@@ -28,6 +28,7 @@ Plant::Plant(const Model& model, const PlantOptions& options)
       series_(terms_.linear_two_masses || (options.linear_by_steps && terms_.linear_two_masses_by_steps)),
       step_s_(std::min(options.step_s, options.stiff_step_factor *
                                            (series_ ? terms_.longest_series_step_s : terms_.longest_step_s))),
+      apart_step_s_(std::min(options.step_s, options.stiff_step_factor * terms_.longest_apart_step_s)),
       heating_start_s_(options.heating_start_s) {}
 
 void Plant::reset(const PlantState& state) {

@@ -88,7 +88,7 @@ class Plant {
 
   PlantTerms terms_;
   bool series_;  // two masses that are linear, at least by steps
-  double step_s_, heating_start_s_;
+  double step_s_, apart_step_s_, heating_start_s_;
   PlantState state_;
   double target_V_ = 0;  // voltage the armature moves towards in this hold
   double extra_push_ = 0;

@@ -10,9 +10,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Inner steps resolve the fastest rate w of a model to w h = 0.15: the Runge-Kutta method's local error is
 /// then (w h)^5/120 < 1e-6 of the amplitude.
 constexpr double kStepTimesRate = 0.15;
-/// A Taylor series of eight terms reaches farther (plant_two_masses_linear.cpp); what bounds it is that one
+/// A Taylor series reaches as far as it has terms (plant_two_masses_linear.cpp); what bounds it is that one
 /// step should not hold two events.
-constexpr double kSeriesStepTimesRate = 0.3;
+constexpr double kSeriesStepTimesRate = 0.6;
 /// Keeps the cost of a very stiff model bounded. Rates up to 2.7/20 us are still stable.
 constexpr double kLeastStep_s = 2e-5;
 
@@ -29,8 +29,8 @@ Joint joint_of(const Model& m) {
   return {};
 }
 
-/// Fastest rate [rad/s] at which a model moves by itself.
-double fastest_rate(const Model& m, const PlantTerms& p) {
+/// Fastest rate [rad/s] at which a model moves by itself, but for what joins two masses.
+double rate_apart(const PlantTerms& p) {
   double w = p.viscous * (1 + 0.5 * std::abs(p.viscous_difference)) + p.alpha1 + p.gamma;
   const auto oscillates = [&w](double stiffness) { w = std::max(w, std::sqrt(std::abs(stiffness))); };
   oscillates(p.spring);
@@ -39,8 +39,7 @@ double fastest_rate(const Model& m, const PlantTerms& p) {
   oscillates(steepest);
   if (p.stribeck_excess > 0) w = std::max(w, p.stribeck_excess * p.stribeck_inverse_speed);
   if (p.has_bristle) oscillates(p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
-  const Joint joint = joint_of(m);
-  return std::max(w, joint.rate_per_s * std::max(1.0, 2 * joint.damping_ratio));
+  return w;
 }
 
 }  // namespace
@@ -114,13 +113,15 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   linear_two_masses_by_steps = two_masses && !rigid_backlash && !has_bristle;
   linear_two_masses = linear_two_masses_by_steps && !bends && viscous_difference == 0;
 
-  const double rate = fastest_rate(m, *this);
+  apart_rate = rate_apart(*this);
+  series_rate = std::max(apart_rate, joint.rate_per_s * std::max(1.0, 2 * joint.damping_ratio));
   const double step_of_lag_s = has_lag ? std::max(lag_s, kLeastStep_s) : kInfinity;
-  const auto longest_step = [&](double step_times_rate) {
+  const auto longest_step = [&](double step_times_rate, double rate) {
     return rate > 0 ? std::min(step_of_lag_s, std::max(step_times_rate / rate, kLeastStep_s)) : step_of_lag_s;
   };
-  longest_step_s = longest_step(kStepTimesRate);
-  longest_series_step_s = longest_step(kSeriesStepTimesRate);
+  longest_step_s = longest_step(kStepTimesRate, series_rate);
+  longest_series_step_s = longest_step(kSeriesStepTimesRate, series_rate);
+  longest_apart_step_s = longest_step(kSeriesStepTimesRate, apart_rate);
 }
 
 }  // namespace cartwright

@@ -48,6 +48,8 @@ struct PlantTerms {
   bool linear_two_masses_by_steps;  ///< two masses that a series takes too, where what bends is a tangent
   double longest_step_s;            ///< resolves the fastest of the model's own motions
   double longest_series_step_s;     ///< the same, where a series is taken
+  double longest_apart_step_s;      ///< and where two masses do not touch
+  double series_rate, apart_rate;   ///< fastest rates of the model's own motions [1/s], so too
 
   /// Dead zone, saturation and gain asymmetry: what the amplifier makes of a command.
   double amplifier(double command_V) const noexcept {

@@ -1,5 +1,6 @@
 // Two masses whose forces are linear between events, or taken as linear for a step: the state after a step is
 // a Taylor series, and events are roots along it.
+#include <array>
 #include <cmath>
 #include <optional>
 #include <type_traits>
@@ -9,8 +10,9 @@
 namespace cartwright {
 namespace {
 
-/// The first term left out is (w h)^9/9! of the motion: 5e-11 at w h = 0.3, 1e-6 at the 0.9 of observers.
-constexpr int kSeriesOrder = 8;
+/// Terms are left out that are less than this part of the motion.
+constexpr double kSeriesError = 1e-9;
+constexpr int kMostTerms = 24;
 /// An event is located to this part of the step.
 constexpr double kRootWidth = 1e-9;
 constexpr int kMostRootSteps = 60;
@@ -20,10 +22,44 @@ struct Both {
   double cart = 0, motor = 0;
 };
 
+/// The same, to reckon with both at once.
+using Lanes [[gnu::vector_size(16)]] = double;
+
+Lanes lanes(const Both& both) {
+  return Lanes{both.cart, both.motor};
+}
+
+Lanes swapped(Lanes both) {
+  return __builtin_shufflevector(both, both, 1, 0);
+}
+
 struct Motion {
   Both y, v;
   double s = 0;  ///< time into the step
 };
+
+struct Series {
+  std::array<double, kMostTerms + 2> inverse{};  // 1/n
+  std::array<double, kMostTerms + 1> reach{};  // of n terms: the w h at which (w h)^(n+1)/(n+1)! is the error
+
+  Series() {
+    double log_factorial = 0;
+    for (std::size_t n = 1; n <= kMostTerms; ++n) {
+      const double next = static_cast<double>(n + 1);
+      log_factorial += std::log(next);
+      inverse[n + 1] = 1 / next;
+      reach[n] = std::exp((std::log(kSeriesError) + log_factorial) / next);
+    }
+  }
+};
+const Series kSeries;
+
+/// How many terms the series of a motion takes for a step, by its fastest rate times the step.
+int series_terms(double rate_times_step) {
+  int n = 1;
+  while (n < kMostTerms && kSeries.reach[static_cast<std::size_t>(n)] < rate_times_step) ++n;
+  return n;
+}
 
 /// The drive during a step: at_start + slope s.
 struct DriveLine {
@@ -36,6 +72,7 @@ struct LinearMode {
   bool cart_stuck = false, motor_stuck = false;
   int contact = 0;
   bool coupled = false;  // the masses act on each other
+  Both per_mass;         // zero for what is stuck
 };
 
 enum class LinearEvent { none, cart_stops, motor_stops, cart_starts, motor_starts, touch, part, press_turns };
@@ -44,14 +81,27 @@ enum class LinearEvent { none, cart_stops, motor_stops, cart_starts, motor_start
 template <LinearEvent event>
 using Which = std::integral_constant<LinearEvent, event>;
 
+/// What the masses do to each other, across a gap or not.
+struct Coupling {
+  double stiffness, damping, gap;
+
+  /// The force on the cart if they do.
+  double press(const Motion& at, int contact) const {
+    return stiffness * (at.y.motor - at.y.cart - 0.5 * gap * contact) + damping * (at.v.motor - at.v.cart);
+  }
+
+  /// With a gap the parts push and never pull.
+  bool acts(const Motion& at, int contact) const {
+    return gap == 0 || (contact != 0 && contact * press(at, contact) > 0);
+  }
+};
+
 class LinearPair {
  public:
   /// Linear from `now` on; `place` and `time_s` are half way through the step.
-  LinearPair(const PlantTerms& terms, const Motion& now, const DriveLine& drive, double push,
-             const Both& place, double time_s)
-      : stiffness_(terms.coupling_stiffness),
-        coupling_damping_(terms.coupling_damping),
-        gap_(terms.gap),
+  LinearPair(const PlantTerms& terms, const Coupling& coupling, const Motion& now, const DriveLine& drive,
+             double push, const Both& place, double time_s)
+      : coupling_(coupling),
         inverse_mass_{1 / terms.load_share, 1 / (1 - terms.load_share)},
         outer_{terms.pushes(place.cart, time_s) + push, drive.at_start},
         drive_slope_(drive.slope) {
@@ -73,10 +123,10 @@ class LinearPair {
     }
   }
 
-  LinearMode mode(const Motion& at, int contact) const {
+  LinearMode mode(const Motion& at, int contact, bool coupled) const {
     LinearMode m;
     m.contact = contact;
-    m.coupled = gap_ == 0 || (contact != 0 && contact * press(at, contact) > 0);
+    m.coupled = coupled;
     const Both net = forces(at, m);
     const auto decide = [](double v, double force, double level, double& friction, bool& stuck) {
       stuck = v == 0 && level > 0 && std::abs(force) <= level;
@@ -84,37 +134,39 @@ class LinearPair {
     };
     decide(at.v.cart, net.cart, level_.cart, m.friction.cart, m.cart_stuck);
     decide(at.v.motor, net.motor, level_.motor, m.friction.motor, m.motor_stuck);
+    m.per_mass = {m.cart_stuck ? 0 : inverse_mass_.cart, m.motor_stuck ? 0 : inverse_mass_.motor};
     return m;
   }
 
-  /// The motion h later: each derivative follows from the one before it as accelerations do from the state.
-  Motion after(const Motion& at, const LinearMode& mode, double h) const {
+  /// The motion h later, a series of so many terms: each derivative follows from the one before it as
+  /// accelerations do from the state.
+  Motion after(const Motion& at, const LinearMode& mode, double h, int terms) const {
+    const Lanes per_mass = lanes(mode.per_mass);
+    const Lanes spring = (mode.coupled ? coupling_.stiffness : 0) * per_mass;
+    const Lanes damper = (mode.coupled ? coupling_.damping : 0) * per_mass;
+    const Lanes damping = lanes(damping_) * per_mass + damper;
     const Both net = forces(at, mode);
-    Motion out = at;
-    out.s += h;
-    Both v = at.v;
-    Both a = accelerations({net.cart - mode.friction.cart, net.motor - mode.friction.motor}, mode);
+    Lanes y = lanes(at.y), v = lanes(at.v), dy = v;
+    Lanes dv = Lanes{net.cart - mode.friction.cart, net.motor - mode.friction.motor} * per_mass;
+    Lanes slope = {0, drive_slope_ * mode.per_mass.motor};
     double weight = h;
     for (int n = 1;; ++n) {
-      out.y.cart += weight * v.cart;
-      out.y.motor += weight * v.motor;
-      out.v.cart += weight * a.cart;
-      out.v.motor += weight * a.motor;
-      if (n == kSeriesOrder) return out;
-      const double coupling = mode.coupled ? spring(v, a) : 0;
-      const double drive = n == 1 ? drive_slope_ : 0;
-      const Both jerk = accelerations(
-          {coupling - damping_.cart * a.cart, drive - coupling - damping_.motor * a.motor}, mode);
-      v = a;
-      a = jerk;
-      weight *= h / (n + 1);
+      y += weight * dy;
+      v += weight * dv;
+      if (n == terms) break;
+      const Lanes next = (spring * (swapped(dy) - dy) - damping * dv) + damper * swapped(dv) + slope;
+      slope = Lanes{};
+      dy = dv;
+      dv = next;
+      weight *= h * kSeries.inverse[static_cast<std::size_t>(n) + 1];
     }
+    return {{y[0], y[1]}, {v[0], v[1]}, at.s + h};
   }
 
   /// Greater than zero once the event has happened; none where it cannot.
   template <LinearEvent event>
   std::optional<double> past(const Motion& at, const LinearMode& mode) const {
-    const bool gap = gap_ > 0;
+    const bool gap = coupling_.gap > 0;
     if constexpr (event == LinearEvent::cart_stops) {
       if (mode.friction.cart != 0) return -mode.friction.cart * at.v.cart;
     } else if constexpr (event == LinearEvent::motor_stops) {
@@ -124,11 +176,12 @@ class LinearPair {
     } else if constexpr (event == LinearEvent::motor_starts) {
       if (mode.motor_stuck) return std::abs(forces(at, mode).motor) - level_.motor;
     } else if constexpr (event == LinearEvent::touch) {
-      if (gap && mode.contact == 0) return std::abs(at.y.motor - at.y.cart) - 0.5 * gap_;
+      if (gap && mode.contact == 0) return std::abs(at.y.motor - at.y.cart) - 0.5 * coupling_.gap;
     } else if constexpr (event == LinearEvent::part) {
-      if (gap && mode.contact != 0) return 0.5 * gap_ - mode.contact * (at.y.motor - at.y.cart);
+      if (gap && mode.contact != 0) return 0.5 * coupling_.gap - mode.contact * (at.y.motor - at.y.cart);
     } else if constexpr (event == LinearEvent::press_turns) {
-      if (gap && mode.contact != 0) return (mode.coupled ? -1 : 1) * mode.contact * press(at, mode.contact);
+      if (gap && mode.contact != 0)
+        return (mode.coupled ? -1 : 1) * mode.contact * coupling_.press(at, mode.contact);
     }
     return {};
   }
@@ -148,28 +201,14 @@ class LinearPair {
             friction_share * level.at_zero};
   }
 
-  double spring(const Both& stretch, const Both& rate) const {
-    return stiffness_ * (stretch.motor - stretch.cart) + coupling_damping_ * (rate.motor - rate.cart);
-  }
-
-  /// What the coupling does to the cart; with a gap it counts only while it pushes.
-  double press(const Motion& at, int contact) const {
-    return spring(at.y, at.v) - stiffness_ * 0.5 * gap_ * contact;
-  }
-
   /// Without friction.
   Both forces(const Motion& at, const LinearMode& mode) const {
-    const double coupling = mode.coupled ? press(at, mode.contact) : 0;
+    const double coupling = mode.coupled ? coupling_.press(at, mode.contact) : 0;
     return {outer_.cart - damping_.cart * at.v.cart + coupling,
             outer_.motor + drive_slope_ * at.s - damping_.motor * at.v.motor - coupling};
   }
 
-  Both accelerations(const Both& force, const LinearMode& mode) const {
-    return {mode.cart_stuck ? 0 : force.cart * inverse_mass_.cart,
-            mode.motor_stuck ? 0 : force.motor * inverse_mass_.motor};
-  }
-
-  double stiffness_, coupling_damping_, gap_;
+  const Coupling& coupling_;
   Both inverse_mass_, outer_, damping_, level_;
   double drive_slope_;
 };
@@ -210,26 +249,29 @@ double root_after(const Past& past, double at_start, double h) {
 void Plant::hold_two_masses_linear(double duration_s) noexcept {
   Motion now{{state_.position_m, state_.motor_position_m},
              {state_.velocity_m_per_s, state_.motor_velocity_m_per_s}};
+  const Coupling coupling{terms_.coupling_stiffness, terms_.coupling_damping, terms_.gap};
   double left = duration_s;
   int events = 0;
   while (left > kLeastAdvance_s) {
-    double h = left / steps_over(left, step_s_);
+    const bool coupled = coupling.acts(now, state_.contact);
+    double h = left / steps_over(left, coupled ? step_s_ : apart_step_s_);
+    const int terms = series_terms((coupled ? terms_.series_rate : terms_.apart_rate) * h);
     Drive d = drive(h);
     const double mean = d.middle + (d.start - 2 * d.middle + d.end) / 6;
-    const LinearPair pair(terms_, now, {mean - 0.5 * (d.end - d.start), (d.end - d.start) / h}, extra_push_,
-                          {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor},
-                          state_.time_s + 0.5 * h);
-    const LinearMode mode = pair.mode(now, state_.contact);
-    Motion next = pair.after(now, mode, h);
+    const LinearPair pair(
+        terms_, coupling, now, {mean - 0.5 * (d.end - d.start), (d.end - d.start) / h}, extra_push_,
+        {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor}, state_.time_s + 0.5 * h);
+    const LinearMode mode = pair.mode(now, state_.contact, coupled);
+    Motion next = pair.after(now, mode, h, terms);
     LinearEvent first = LinearEvent::none;
     const auto consider = [&]<LinearEvent event>(Which<event>) {
       const auto at_end = pair.past<event>(next, mode);
       if (!at_end || !(*at_end > 0)) return;
       first = event;
       if (events >= kEventsPerStep) return;  // too many to locate: it happens at the end
-      h = root_after([&](double x) { return *pair.past<event>(pair.after(now, mode, x), mode); },
+      h = root_after([&](double x) { return *pair.past<event>(pair.after(now, mode, x, terms), mode); },
                      *pair.past<event>(now, mode), h);
-      next = pair.after(now, mode, h);
+      next = pair.after(now, mode, h, terms);
       d = drive(h);
     };
     consider(Which<LinearEvent::cart_stops>{});
