@@ -32,10 +32,14 @@ class TwoMassGain {
   double disturbance_decay() const { return decay_; }
 
  private:
-  using Matrix = Eigen::Matrix<double, 5, 5>;
-  using Vector = Eigen::Matrix<double, 5, 1>;
+  // Of the five a sixth is always zero: whole packets reckon faster.
+  using Matrix = Eigen::Matrix<double, 6, 6>;
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  // How the speeds and the disturbance move all; of the positions it is known.
+  using Movers = Eigen::Matrix<double, 6, 3>;
 
-  Matrix apart_, together_, start_, p_;
+  Movers apart_, together_;
+  Matrix start_, p_;
   double decay_, disturbance_variance_, motor_variance_;
   Gain gain_{};
   bool in_contact_ = false, steady_ = false;  // steady: the covariance no longer moves in this mode
