@@ -75,7 +75,7 @@ class Diagnostician {
     search.held = options_.held;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
     result_.search = explain(used, nominal_, search);
-    if (!held.empty() && shows_a_push(held)) {
+    if (!held.empty() && shows_a_push(used, held)) {
       result_.remarks.push_back(
           fmt::format("{} holds something of its own, so it was used and nothing held out.",
                       session_.recordings[held.front()].file));
@@ -112,16 +112,20 @@ class Diagnostician {
     if (options_.progress) options_.progress(what, share);
   }
 
-  /// A push that happened only in the recording kept out would never be found without it.
-  bool shows_a_push(const std::vector<std::size_t>& held) const {
+  /// A push that happened only in the recording kept out would never be found without it. What looks like a
+  /// push as much in a recording that was used is none of its own.
+  bool shows_a_push(const Session& used, const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     if (best.has(Term::external_disturbance)) return false;
-    const Session out = only(session_, held);
     FitOptions as_it_is = fit_options_;
     as_it_is.move_noise = false;
-    const Fit here = fit(out, best.fit.model, best.fit.noise, {}, as_it_is);
-    const std::vector<Promise> promises = scan_pushes(out, here, facts_of(out), as_it_is);
-    return !promises.empty() && promises.front().log_likelihood_gain > 2 * kLeastGain;
+    const auto most_promised = [&](const Session& session, const Fit& fit) {
+      const std::vector<Promise> promises = scan_pushes(session, fit, facts_of(session), as_it_is);
+      return promises.empty() ? 0 : promises.front().log_likelihood_gain;
+    };
+    const Session out = only(session_, held);
+    const double here = most_promised(out, fit(out, best.fit.model, best.fit.noise, {}, as_it_is));
+    return here > 2 * kLeastGain && here > most_promised(without_jumps(used, best.jumps), best.fit);
   }
 
   void judge(const Session& repaired) {
