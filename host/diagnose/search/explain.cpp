@@ -8,6 +8,7 @@
 #include "host/diagnose/search/evolve_gap.hpp"
 #include "host/diagnose/search/plausible.hpp"
 #include "host/diagnose/search/promises.hpp"
+#include "host/diagnose/search/promises_beside_gap.hpp"
 #include "host/diagnose/search/race_beside_gap.hpp"
 #include "host/diagnose/search/worth_fitting.hpp"
 #include "host/parallel.hpp"
@@ -100,8 +101,13 @@ class Explainer {
   std::vector<Explanation> next_effects(Search& search, std::size_t stage, double least_gain) {
     const Explanation& base = search.best;
     const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
+    const bool beside_gap = base.has(Term::backlash);
+    FitOptions sketch = options_of_sketch();
+    if (base.has_two_masses()) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
+    if (beside_gap) sketch = with_kinks(base.fit.model, sketch);
     const std::vector<Promise> promises =
-        all_promises(data, base.fit, facts_, fit_options_, options_.threads);
+        beside_gap ? promises_beside_gap(data, base.fit, facts_, sketch, options_.threads)
+                   : all_promises(data, base.fit, facts_, fit_options_, options_.threads);
     if (stage == 0) search.promises = promises;
     // Lost counts cost no search: what cannot come near them need not be fitted.
     const std::optional<Explanation> lost = lost_counts_on(base);
@@ -114,20 +120,17 @@ class Explainer {
       std::erase_if(chosen, is_gap);
       if (better) chosen.insert(chosen.begin(), *better);
     }
-    FitOptions sketch = options_of_sketch();
-    if (base.has_two_masses()) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
-    std::vector<Explanation> tried(chosen.size());
     std::vector<Fit> fits(chosen.size());
-    if (base.has(Term::backlash)) {
-      fits = race_beside_gap(data, chosen, base.fit.log_likelihood + kSketchNearEnough * to_reach,
-                             with_kinks(base.fit.model, sketch), options_.threads);
+    if (beside_gap) {
+      fits = race_beside_gap(data, base.fit, chosen, kSketchNearEnough * to_reach, sketch, options_.threads);
     } else {
       parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
         fits[i] = fit(data, chosen[i].start, chosen[i].noise.value_or(base.fit.noise), chosen[i].free,
                       with_kinks(chosen[i].start, sketch));
       });
     }
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
+    std::vector<Explanation> tried(fits.size());
+    for (std::size_t i = 0; i < fits.size(); ++i) {
       tried[i].effects = base.effects;
       tried[i].effects.push_back(chosen[i].term);
       tried[i].jumps = base.jumps;

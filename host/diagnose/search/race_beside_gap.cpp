@@ -1,7 +1,5 @@
 #include "host/diagnose/search/race_beside_gap.hpp"
 
-#include <algorithm>
-
 #include "host/diagnose/search/evolve_gap.hpp"
 
 namespace cartwright {
@@ -12,8 +10,9 @@ constexpr EvolutionEffort kFinal{kGapFar.most_data_s, kGapFar.most_evaluations -
 
 }  // namespace
 
-std::vector<Fit> race_beside_gap(const Session& session, const std::vector<Promise>& promises,
-                                 double worth_going_on, const FitOptions& sketch, unsigned threads) {
+std::vector<Fit> race_beside_gap(const Session& session, const Fit& base,
+                                 const std::vector<Promise>& promises, double worth_going_on,
+                                 const FitOptions& sketch, unsigned threads) {
   const auto fitted = [&](const Model& from, const Promise& promise) {
     return fit(session, from, kSharpNoise, promise.free, sketch);
   };
@@ -21,16 +20,18 @@ std::vector<Fit> race_beside_gap(const Session& session, const std::vector<Promi
     return fitted(evolve_gap(session, from, kSharpNoise, promise.free, sketch, effort, threads), promise);
   };
   std::vector<Fit> fits;
+  std::size_t first = 0;
+  double gained = 0;
   for (const Promise& promise : promises) {
-    Fit slopes = fitted(promise.start, promise), moved = evolved(promise.start, promise, kHeat);
+    if (gained > promise.log_likelihood_gain) break;
+    Fit slopes = fitted(promise.start, promise), moved = evolved(slopes.model, promise, kHeat);
     fits.push_back(slopes.log_likelihood > moved.log_likelihood ? std::move(slopes) : std::move(moved));
+    if (fits.back().log_likelihood > fits[first].log_likelihood) first = fits.size() - 1;
+    gained = fits[first].log_likelihood - base.log_likelihood;
   }
-  const auto first = std::max_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
-    return a.log_likelihood < b.log_likelihood;
-  });
-  if (first == fits.end() || first->log_likelihood < worth_going_on) return fits;
-  Fit further = evolved(first->model, promises[static_cast<std::size_t>(first - fits.begin())], kFinal);
-  if (further.log_likelihood > first->log_likelihood) *first = std::move(further);
+  if (fits.empty() || gained < worth_going_on) return fits;
+  Fit further = evolved(fits[first].model, promises[first], kFinal);
+  if (further.log_likelihood > fits[first].log_likelihood) fits[first] = std::move(further);
   return fits;
 }
 

@@ -16,6 +16,10 @@ constexpr std::size_t kEffectsBeforeTwoMasses = 2;
 constexpr std::size_t kStartsFitted = 2;    // most starts of one term; beside a gap it evolves from one
 constexpr double kLeastPromise = 3.0;       // nats, to be fitted at all
 constexpr double kLeastShareOfBest = 0.03;  // of the best promise
+/// The same beside a gap, where each costs an evolution; there nothing is hidden (promises_beside_gap.hpp),
+/// and a term must promise all that it has to gain.
+constexpr double kLeastShareOfBestBesideGap = 0.3;
+constexpr double kMostGainOverPromiseBesideGap = 1;
 
 bool many_minima(Term term) {
   return two_masses(term) || term == Term::cogging || term == Term::encoder_eccentricity ||
@@ -40,13 +44,17 @@ bool is_gap(const Promise& promise) {
 std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double least_gain,
                                    const Explanation& base) {
   const std::size_t most_terms = base.has_two_masses() ? kTermsFittedSlow : kTermsFitted;
-  const std::size_t most_starts = base.has(Term::backlash) ? 1 : kStartsFitted;
+  const bool beside_gap = base.has(Term::backlash);
+  const std::size_t most_starts = beside_gap ? 1 : kStartsFitted;
+  const double least_share = beside_gap ? kLeastShareOfBestBesideGap : kLeastShareOfBest;
+  const double least_promise =
+      least_gain / (beside_gap ? kMostGainOverPromiseBesideGap : kMostGainOverPromise);
   const bool no_gap = gives_rather_than_plays(promises);
   std::vector<Promise> chosen;
   std::map<Term, std::size_t> starts;
   for (const Promise& promise : promises) {
-    const double bar = std::max({kLeastPromise, least_gain / kMostGainOverPromise,
-                                 kLeastShareOfBest * promises.front().log_likelihood_gain});
+    const double bar =
+        std::max({kLeastPromise, least_promise, least_share * promises.front().log_likelihood_gain});
     if (promise.log_likelihood_gain < bar) break;
     if (two_masses(promise.term) &&
         (base.effects_beyond_every_cart() >= kEffectsBeforeTwoMasses ||
