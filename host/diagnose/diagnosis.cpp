@@ -112,8 +112,9 @@ class Diagnostician {
     if (options_.progress) options_.progress(what, share);
   }
 
-  /// A push that happened only in the recording kept out would never be found without it. What looks like a
-  /// push as much in a recording that was used is none of its own.
+  /// A push that happened only in the recording kept out would never be found without it. A gap's impacts
+  /// look like pushes where they are misjudged: beside one it is a push only if no recording that was used
+  /// shows as much of one.
   bool shows_a_push(const Session& used, const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     if (best.has(Term::external_disturbance)) return false;
@@ -125,7 +126,8 @@ class Diagnostician {
     };
     const Session out = only(session_, held);
     const double here = most_promised(out, fit(out, best.fit.model, best.fit.noise, {}, as_it_is));
-    return here > 2 * kLeastGain && here > most_promised(without_jumps(used, best.jumps), best.fit);
+    if (here <= 2 * kLeastGain) return false;
+    return !best.has(Term::backlash) || here > most_promised(without_jumps(used, best.jumps), best.fit);
   }
 
   void judge(const Session& repaired) {
