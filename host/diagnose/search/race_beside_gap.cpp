@@ -24,8 +24,10 @@ std::vector<Fit> race_beside_gap(const Session& session, const Fit& base,
   double gained = 0;
   for (const Promise& promise : promises) {
     if (gained > promise.log_likelihood_gain) break;
-    Fit slopes = fitted(promise.start, promise), moved = evolved(slopes.model, promise, kHeat);
-    fits.push_back(slopes.log_likelihood > moved.log_likelihood ? std::move(slopes) : std::move(moved));
+    Fit best = fitted(promise.start, promise);
+    Fit moved = evolved(best.model, promise, kHeat);
+    if (moved.log_likelihood > best.log_likelihood) best = std::move(moved);
+    fits.push_back(std::move(best));
     if (fits.back().log_likelihood > fits[first].log_likelihood) first = fits.size() - 1;
     gained = fits[first].log_likelihood - base.log_likelihood;
   }
