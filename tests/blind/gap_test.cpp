@@ -13,6 +13,14 @@
 namespace cartwright::blind {
 namespace {
 
+FitOptions one_round_over_kinks() {
+  FitOptions options;
+  options.difference_step = kStepOverKinks;
+  options.most_rounds = 1;
+  options.threads = 2;
+  return options;
+}
+
 /// With the gap alone in the model its numbers come out wrong for what the saturation does; once both are in,
 /// they must be looked for again. Without that the gap was 23 % off here.
 TEST(Gap, IsLookedForAgainOnceWhatIsBesideItIsFound) {
@@ -43,11 +51,8 @@ TEST(Gap, RaceFindsWhatIsBesideItWhereSlopesWithTheNoiseFoundDoNot) {
       .set(P::backlash_contact_damping_ratio, 0.2)
       .set(P::asymmetric_viscous_difference, 0.04);
   promise.free = free_parameters(promise.start, facts_of(session));
-  FitOptions options;
-  options.difference_step = kStepOverKinks;
-  options.most_rounds = 1;
+  FitOptions options = one_round_over_kinks();
   options.covariance = false;
-  options.threads = 2;
   const Fit slopes = fit(session, promise.start, {6.7e4, 2.7e-4}, promise.free, options);
   const Fit raced = race_beside_gap(session, slopes, {promise}, 0, options, 2).front();
   EXPECT_GT(raced.log_likelihood, slopes.log_likelihood + 1000);
@@ -71,11 +76,8 @@ TEST(Gap, ThatWasFoundAloneHidesWhatIsBesideItUntilItIsMoved) {
       .set(P::backlash_load_damping_share, 0.2519)
       .set(P::backlash_contact_resonance, 282.8)
       .set(P::backlash_contact_damping_ratio, 0.1562);
-  FitOptions options;
-  options.difference_step = kStepOverKinks;
-  options.most_rounds = 1;
+  FitOptions options = one_round_over_kinks();
   options.most_iterations = 3;
-  options.threads = 2;
   const Fit base = fit(session, alone, kSharpNoise, free_parameters(alone, facts), options);
   const auto first = [](const std::vector<Promise>& promises) { return promises.front().term; };
   EXPECT_NE(first(all_promises(session, base, facts, options, 2)), Term::quadratic_drag);
