@@ -66,13 +66,15 @@ struct DriveLine {
   double at_start, slope;
 };
 
-/// How friction and contact act until the next event.
+/// How friction and contact act until the next event, and what of the series stays the same until then.
 struct LinearMode {
   Both friction;  // that slides: level times the sign of the motion
   bool cart_stuck = false, motor_stuck = false;
   int contact = 0;
   bool coupled = false;  // the masses act on each other
-  Both per_mass;         // zero for what is stuck
+  int terms = 0;         // of the series
+  Lanes per_mass{};      // zero for what is stuck
+  Lanes spring{}, damper{}, damping{};
 };
 
 enum class LinearEvent { none, cart_stops, motor_stops, cart_starts, motor_starts, touch, part, press_turns };
@@ -123,10 +125,11 @@ class LinearPair {
     }
   }
 
-  LinearMode mode(const Motion& at, int contact, bool coupled) const {
+  LinearMode mode(const Motion& at, int contact, bool coupled, int terms) const {
     LinearMode m;
     m.contact = contact;
     m.coupled = coupled;
+    m.terms = terms;
     const Both net = forces(at, m);
     const auto decide = [](double v, double force, double level, double& friction, bool& stuck) {
       stuck = v == 0 && level > 0 && std::abs(force) <= level;
@@ -134,26 +137,25 @@ class LinearPair {
     };
     decide(at.v.cart, net.cart, level_.cart, m.friction.cart, m.cart_stuck);
     decide(at.v.motor, net.motor, level_.motor, m.friction.motor, m.motor_stuck);
-    m.per_mass = {m.cart_stuck ? 0 : inverse_mass_.cart, m.motor_stuck ? 0 : inverse_mass_.motor};
+    m.per_mass = Lanes{m.cart_stuck ? 0 : inverse_mass_.cart, m.motor_stuck ? 0 : inverse_mass_.motor};
+    m.spring = (coupled ? coupling_.stiffness : 0) * m.per_mass;
+    m.damper = (coupled ? coupling_.damping : 0) * m.per_mass;
+    m.damping = lanes(damping_) * m.per_mass + m.damper;
     return m;
   }
 
-  /// The motion h later, a series of so many terms: each derivative follows from the one before it as
-  /// accelerations do from the state.
-  Motion after(const Motion& at, const LinearMode& mode, double h, int terms) const {
-    const Lanes per_mass = lanes(mode.per_mass);
-    const Lanes spring = (mode.coupled ? coupling_.stiffness : 0) * per_mass;
-    const Lanes damper = (mode.coupled ? coupling_.damping : 0) * per_mass;
-    const Lanes damping = lanes(damping_) * per_mass + damper;
+  /// The motion h later: each derivative follows from the one before it as accelerations do from the state.
+  Motion after(const Motion& at, const LinearMode& mode, double h) const {
+    const Lanes spring = mode.spring, damper = mode.damper, damping = mode.damping;
     const Both net = forces(at, mode);
     Lanes y = lanes(at.y), v = lanes(at.v), dy = v;
-    Lanes dv = Lanes{net.cart - mode.friction.cart, net.motor - mode.friction.motor} * per_mass;
-    Lanes slope = {0, drive_slope_ * mode.per_mass.motor};
+    Lanes dv = Lanes{net.cart - mode.friction.cart, net.motor - mode.friction.motor} * mode.per_mass;
+    Lanes slope = {0, drive_slope_ * mode.per_mass[1]};
     double weight = h;
     for (int n = 1;; ++n) {
       y += weight * dy;
       v += weight * dv;
-      if (n == terms) break;
+      if (n == mode.terms) break;
       const Lanes next = (spring * (swapped(dy) - dy) - damping * dv) + damper * swapped(dv) + slope;
       slope = Lanes{};
       dy = dv;
@@ -261,17 +263,17 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
     const LinearPair pair(
         terms_, coupling, now, {mean - 0.5 * (d.end - d.start), (d.end - d.start) / h}, extra_push_,
         {now.y.cart + 0.5 * h * now.v.cart, now.y.motor + 0.5 * h * now.v.motor}, state_.time_s + 0.5 * h);
-    const LinearMode mode = pair.mode(now, state_.contact, coupled);
-    Motion next = pair.after(now, mode, h, terms);
+    const LinearMode mode = pair.mode(now, state_.contact, coupled, terms);
+    Motion next = pair.after(now, mode, h);
     LinearEvent first = LinearEvent::none;
     const auto consider = [&]<LinearEvent event>(Which<event>) {
       const auto at_end = pair.past<event>(next, mode);
       if (!at_end || !(*at_end > 0)) return;
       first = event;
       if (events >= kEventsPerStep) return;  // too many to locate: it happens at the end
-      h = root_after([&](double x) { return *pair.past<event>(pair.after(now, mode, x, terms), mode); },
+      h = root_after([&](double x) { return *pair.past<event>(pair.after(now, mode, x), mode); },
                      *pair.past<event>(now, mode), h);
-      next = pair.after(now, mode, h, terms);
+      next = pair.after(now, mode, h);
       d = drive(h);
     };
     consider(Which<LinearEvent::cart_stops>{});
