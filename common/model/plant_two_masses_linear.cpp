@@ -12,7 +12,7 @@ namespace {
 
 /// Terms are left out that are less than this part of the motion.
 constexpr double kSeriesError = 1e-9;
-constexpr int kMostTerms = 24;
+constexpr std::size_t kMostTerms = 24;
 /// An event is located to this part of the step.
 constexpr double kRootWidth = 1e-9;
 constexpr int kMostRootSteps = 60;
@@ -27,6 +27,10 @@ using Lanes [[gnu::vector_size(16)]] = double;
 
 Lanes lanes(const Both& both) {
   return Lanes{both.cart, both.motor};
+}
+
+Both both(Lanes of) {
+  return {of[0], of[1]};
 }
 
 Lanes swapped(Lanes both) {
@@ -44,6 +48,7 @@ struct Series {
 
   Series() {
     double log_factorial = 0;
+    inverse[1] = 1;
     for (std::size_t n = 1; n <= kMostTerms; ++n) {
       const double next = static_cast<double>(n + 1);
       log_factorial += std::log(next);
@@ -55,11 +60,23 @@ struct Series {
 const Series kSeries;
 
 /// How many terms the series of a motion takes for a step, by its fastest rate times the step.
-int series_terms(double rate_times_step) {
-  int n = 1;
-  while (n < kMostTerms && kSeries.reach[static_cast<std::size_t>(n)] < rate_times_step) ++n;
+std::size_t series_terms(double rate_times_step) {
+  std::size_t n = 1;
+  while (n < kMostTerms && kSeries.reach[n] < rate_times_step) ++n;
   return n;
 }
+
+/// Of the time into a step: sum of c[n] x^n.
+struct Polynomial {
+  std::array<double, kMostTerms + 1> c{};
+  std::size_t degree = 0;
+
+  double operator()(double x) const {
+    double value = c[degree];
+    for (std::size_t n = degree; n-- > 0;) value = value * x + c[n];
+    return value;
+  }
+};
 
 /// The drive during a step: at_start + slope s.
 struct DriveLine {
@@ -71,9 +88,9 @@ struct LinearMode {
   Both friction;  // that slides: level times the sign of the motion
   bool cart_stuck = false, motor_stuck = false;
   int contact = 0;
-  bool coupled = false;  // the masses act on each other
-  int terms = 0;         // of the series
-  Lanes per_mass{};      // zero for what is stuck
+  bool coupled = false;   // the masses act on each other
+  std::size_t terms = 0;  // of the series
+  Lanes per_mass{};       // zero for what is stuck
   Lanes spring{}, damper{}, damping{};
 };
 
@@ -125,7 +142,7 @@ class LinearPair {
     }
   }
 
-  LinearMode mode(const Motion& at, int contact, bool coupled, int terms) const {
+  LinearMode mode(const Motion& at, int contact, bool coupled, std::size_t terms) const {
     LinearMode m;
     m.contact = contact;
     m.coupled = coupled;
@@ -144,41 +161,48 @@ class LinearPair {
     return m;
   }
 
-  /// The motion h later: each derivative follows from the one before it as accelerations do from the state.
+  /// The motion h later.
   Motion after(const Motion& at, const LinearMode& mode, double h) const {
-    const Lanes spring = mode.spring, damper = mode.damper, damping = mode.damping;
-    const Both net = forces(at, mode);
-    Lanes y = lanes(at.y), v = lanes(at.v), dy = v;
-    Lanes dv = Lanes{net.cart - mode.friction.cart, net.motor - mode.friction.motor} * mode.per_mass;
-    Lanes slope = {0, drive_slope_ * mode.per_mass[1]};
-    double weight = h;
-    for (int n = 1;; ++n) {
+    Lanes y = lanes(at.y), v = lanes(at.v);
+    double weight = 1;
+    derivatives(at, mode, [&](std::size_t n, Lanes dy, Lanes dv) {
+      weight *= h * kSeries.inverse[n];
       y += weight * dy;
       v += weight * dv;
-      if (n == mode.terms) break;
-      const Lanes next = (spring * (swapped(dy) - dy) - damping * dv) + damper * swapped(dv) + slope;
-      slope = Lanes{};
-      dy = dv;
-      dv = next;
-      weight *= h * kSeries.inverse[static_cast<std::size_t>(n) + 1];
-    }
-    return {{y[0], y[1]}, {v[0], v[1]}, at.s + h};
+    });
+    return {both(y), both(v), at.s + h};
   }
 
-  /// Greater than zero once the event has happened; none where it cannot.
+  /// `past` as a polynomial of the time after `at`: it is a line in the motion, so that each coefficient of
+  /// the motion gives one of it.
   template <LinearEvent event>
-  std::optional<double> past(const Motion& at, const LinearMode& mode) const {
+  Polynomial past_along(const Motion& at, const LinearMode& mode, const Motion& end) const {
+    const double still = *past<event>(Motion{}, mode, end);
+    Polynomial along{{*past<event>(at, mode, end)}, mode.terms};
+    double weight = 1;
+    derivatives(at, mode, [&](std::size_t n, Lanes dy, Lanes dv) {
+      weight *= kSeries.inverse[n];
+      along.c[n] = weight * (*past<event>({both(dy), both(dv), n == 1 ? 1.0 : 0.0}, mode, end) - still);
+    });
+    return along;
+  }
+
+  /// Greater than zero once the event has happened; none where it cannot. `end` of the step tells to which
+  /// side it does.
+  template <LinearEvent event>
+  std::optional<double> past(const Motion& at, const LinearMode& mode, const Motion& end) const {
     const bool gap = coupling_.gap > 0;
     if constexpr (event == LinearEvent::cart_stops) {
       if (mode.friction.cart != 0) return -mode.friction.cart * at.v.cart;
     } else if constexpr (event == LinearEvent::motor_stops) {
       if (mode.friction.motor != 0) return -mode.friction.motor * at.v.motor;
     } else if constexpr (event == LinearEvent::cart_starts) {
-      if (mode.cart_stuck) return std::abs(forces(at, mode).cart) - level_.cart;
+      if (mode.cart_stuck) return sign_of(forces(end, mode).cart) * forces(at, mode).cart - level_.cart;
     } else if constexpr (event == LinearEvent::motor_starts) {
-      if (mode.motor_stuck) return std::abs(forces(at, mode).motor) - level_.motor;
+      if (mode.motor_stuck) return sign_of(forces(end, mode).motor) * forces(at, mode).motor - level_.motor;
     } else if constexpr (event == LinearEvent::touch) {
-      if (gap && mode.contact == 0) return std::abs(at.y.motor - at.y.cart) - 0.5 * coupling_.gap;
+      if (gap && mode.contact == 0)
+        return sign_of(end.y.motor - end.y.cart) * (at.y.motor - at.y.cart) - 0.5 * coupling_.gap;
     } else if constexpr (event == LinearEvent::part) {
       if (gap && mode.contact != 0) return 0.5 * coupling_.gap - mode.contact * (at.y.motor - at.y.cart);
     } else if constexpr (event == LinearEvent::press_turns) {
@@ -189,6 +213,25 @@ class LinearPair {
   }
 
  private:
+  /// Calls visit(n, y^(n), v^(n)) for every term of the series: each derivative follows from the one before
+  /// it as accelerations do from the state.
+  template <typename Visit>
+  void derivatives(const Motion& at, const LinearMode& mode, const Visit& visit) const {
+    const Lanes spring = mode.spring, damper = mode.damper, damping = mode.damping;
+    const Both net = forces(at, mode);
+    Lanes dy = lanes(at.v);
+    Lanes dv = Lanes{net.cart - mode.friction.cart, net.motor - mode.friction.motor} * mode.per_mass;
+    Lanes slope = {0, drive_slope_ * mode.per_mass[1]};
+    for (std::size_t n = 1;; ++n) {
+      visit(n, dy, dv);
+      if (n == mode.terms) break;
+      const Lanes next = (spring * (swapped(dy) - dy) - damping * dv) + damper * swapped(dv) + slope;
+      slope = Lanes{};
+      dy = dv;
+      dv = next;
+    }
+  }
+
   /// What opposes one mass: at_zero + slope v, and a level of friction.
   struct Resistance {
     double at_zero, slope, level;
@@ -218,9 +261,8 @@ class LinearPair {
 /// How long until just past a root of `past`, which is greater than zero after h: the method of false
 /// position in its Illinois form. What is zero at the start has just happened, and happens again only after
 /// it was below zero.
-template <typename Past>
-double root_after(const Past& past, double at_start, double h) {
-  double low = 0, below = at_start, high = h, above = past(h);
+double root_after(const Polynomial& past, double h) {
+  double low = 0, below = past(0), high = h, above = past(h);
   for (double inside = 0.5 * h; below >= 0; inside *= 0.5) {
     if (inside < kRootWidth * h) return std::max(inside, kLeastAdvance_s);
     const double value = past(inside);
@@ -257,7 +299,7 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
   while (left > kLeastAdvance_s) {
     const bool coupled = coupling.acts(now, state_.contact);
     double h = left / steps_over(left, coupled ? step_s_ : apart_step_s_);
-    const int terms = series_terms((coupled ? terms_.series_rate : terms_.apart_rate) * h);
+    const std::size_t terms = series_terms((coupled ? terms_.series_rate : terms_.apart_rate) * h);
     Drive d = drive(h);
     const double mean = d.middle + (d.start - 2 * d.middle + d.end) / 6;
     const LinearPair pair(
@@ -267,12 +309,11 @@ void Plant::hold_two_masses_linear(double duration_s) noexcept {
     Motion next = pair.after(now, mode, h);
     LinearEvent first = LinearEvent::none;
     const auto consider = [&]<LinearEvent event>(Which<event>) {
-      const auto at_end = pair.past<event>(next, mode);
+      const auto at_end = pair.past<event>(next, mode, next);
       if (!at_end || !(*at_end > 0)) return;
       first = event;
       if (events >= kEventsPerStep) return;  // too many to locate: it happens at the end
-      h = root_after([&](double x) { return *pair.past<event>(pair.after(now, mode, x), mode); },
-                     *pair.past<event>(now, mode), h);
+      h = root_after(pair.past_along<event>(now, mode, next), h);
       next = pair.after(now, mode, h);
       d = drive(h);
     };
