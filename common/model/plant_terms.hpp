@@ -14,6 +14,13 @@ inline double sign_of(double value) noexcept {
   return value > 0 ? 1.0 : (value < 0 ? -1.0 : 0.0);
 }
 
+/// e^-exponent of what fades away; nothing from where it is too little to be seen beside anything else (exp
+/// takes ten times as long where it runs out of small numbers).
+inline double faded(double exponent) noexcept {
+  constexpr double kFaded = 50;  // e^-50 = 2e-22
+  return exponent < kFaded ? std::exp(-exponent) : 0.0;
+}
+
 /// The terms of a model as accelerations [m/s^2], unpacked once so that an integrator pays only for what is
 /// present: absent terms hold neutral values, flags skip what costs time. What each term means:
 /// vocabulary.hpp.
@@ -62,7 +69,7 @@ struct PlantTerms {
   double damping(double v) const noexcept {
     const double speed = std::abs(v);
     double a = (drag * speed + viscous * (1 + 0.5 * viscous_difference * sign_of(v))) * v;
-    if (has_exponential) a += (alpha1 * std::exp(-alpha2 * speed) + gamma) * v;
+    if (has_exponential) a += (alpha1 * faded(alpha2 * speed) + gamma) * v;
     return a;
   }
 
@@ -85,7 +92,7 @@ struct PlantTerms {
     const double speed = std::abs(v);
     Tangent line{-drag * speed * v, 2 * drag * speed + viscous * (1 + 0.5 * viscous_difference * sign_of(v))};
     if (has_exponential) {
-      const double a = alpha1 * std::exp(-alpha2 * speed);
+      const double a = alpha1 * faded(alpha2 * speed);
       line.at_zero += a * alpha2 * speed * v;
       line.slope += a * (1 - alpha2 * speed) + gamma;
     }
@@ -97,7 +104,7 @@ struct PlantTerms {
     Tangent line{level_of_place(y), 0};
     if (stribeck_excess != 0) {
       const double x = std::abs(v) * stribeck_inverse_speed;
-      const double excess = stribeck_excess * std::exp(-x * x);
+      const double excess = stribeck_excess * faded(x * x);
       line.at_zero += excess * (1 + 2 * x * x);
       line.slope = -2 * x * excess * stribeck_inverse_speed;
     }
@@ -119,14 +126,14 @@ struct PlantTerms {
   double level(double y, double v) const noexcept {
     if (!has_level_shape) return coulomb;
     const double x = v * stribeck_inverse_speed;
-    return level_of_place(y) + (stribeck_excess != 0 ? stribeck_excess * std::exp(-x * x) : 0);
+    return level_of_place(y) + (stribeck_excess != 0 ? stribeck_excess * faded(x * x) : 0);
   }
 
   /// Of the level, what the speed does not change.
   double level_of_place(double y) const noexcept {
     if (spot_peak == 0) return coulomb;
     const double x = (y - spot_centre) * spot_inverse_width;
-    return coulomb + spot_peak * std::exp(-0.5 * x * x);
+    return coulomb + spot_peak * faded(0.5 * x * x);
   }
 
   double pushes(double y, double time_s) const noexcept {

@@ -28,6 +28,7 @@ class Replay {
   Replay(const Model& model, const Recording& recording, const ReplayOptions& options)
       : recording_(recording), options_(options), encoder_(model, 0) {
     plant_options_.step_s = options.step_s;
+    plant_options_.linear_by_steps = options.linear_by_steps;
     plant_options_.disturbance_active = model.disturbance_recording == recording.file;
     plant_options_.heating_start_s = options.started_s.value_or(recording.t_s.front());
   }

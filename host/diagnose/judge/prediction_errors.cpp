@@ -8,11 +8,13 @@ namespace cartwright {
 
 std::vector<SquaredError> window_errors(const Model& model, const Session& session, unsigned threads) {
   std::vector<std::vector<SquaredError>> errors(session.recordings.size());
+  ReplayOptions options;
+  options.linear_by_steps = true;
   parallel_for(errors.size(), threads, [&](std::size_t n) {
     const Recording& r = session.recordings[n];
-    const std::vector<double> predicted_m = replay_windows(model, r);
+    const std::vector<double> predicted_m = replay_windows(model, r, options);
     for (std::size_t k = 0; k < r.size(); ++k) {
-      const auto window = static_cast<std::size_t>((r.t_s[k] - r.t_s.front()) / ReplayOptions().window_s);
+      const auto window = static_cast<std::size_t>((r.t_s[k] - r.t_s.front()) / options.window_s);
       if (window >= errors[n].size()) errors[n].resize(window + 1);
       errors[n][window].add(predicted_m[k], r.y_m[k]);
     }
