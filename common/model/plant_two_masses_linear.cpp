@@ -68,13 +68,19 @@ std::size_t series_terms(double rate_times_step) {
 
 /// Of the time into a step: sum of c[n] x^n.
 struct Polynomial {
-  std::array<double, kMostTerms + 1> c{};
+  std::array<double, kMostTerms + 2> c{};  // zero beyond the degree
   std::size_t degree = 0;
 
+  /// Even and odd powers side by side, since each product waits for the one before it.
   double operator()(double x) const {
-    double value = c[degree];
-    for (std::size_t n = degree; n-- > 0;) value = value * x + c[n];
-    return value;
+    const double square = x * x;
+    const std::size_t pairs = degree / 2;
+    double even = c[2 * pairs], odd = c[2 * pairs + 1];
+    for (std::size_t n = pairs; n-- > 0;) {
+      even = even * square + c[2 * n];
+      odd = odd * square + c[2 * n + 1];
+    }
+    return even + x * odd;
   }
 };
 
