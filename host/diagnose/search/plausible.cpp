@@ -41,6 +41,8 @@ bool plausible(const Fit& fit, Term effect, const Session& session, const Sessio
   switch (effect) {
     case Term::backlash:
       return fit.model[Parameter::backlash_gap] >= count;
+    case Term::flexible_coupling:  // of two masses, not of one and next to nothing
+      return !fit.at_bound(Parameter::coupling_load_share);
     case Term::cogging:
       return std::all_of(kCoggingWaves.begin(), kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
         return fit.model[wave.amplitude] == 0 || fit.model[wave.period] <= longest_m;
