@@ -30,6 +30,8 @@ constexpr double kLeastParameterChange = 0.08;
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
 constexpr double kMostLeftOfWindows = 0.2;
+/// The greatest of ten that are alike is seldom more than so many times the greatest of nine.
+constexpr double kStandsOut = 2;
 constexpr double kShowsMismatch = 1.5;  // window error over noise floor
 constexpr double kMostLeftOfLikelihood = 0.5;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
@@ -113,8 +115,8 @@ class Diagnostician {
   }
 
   /// A push that happened only in the recording kept out would never be found without it. A gap's impacts
-  /// look like pushes where they are misjudged: beside one it is a push only if no recording that was used
-  /// shows as much of one.
+  /// look like pushes where they are misjudged: beside one it is a push only if it stands out from what the
+  /// recordings that were used show of them.
   bool shows_a_push(const Session& used, const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     if (best.has(Term::external_disturbance)) return false;
@@ -127,7 +129,8 @@ class Diagnostician {
     const Session out = only(session_, held);
     const double here = most_promised(out, fit(out, best.fit.model, best.fit.noise, {}, as_it_is));
     if (here <= 2 * kLeastGain) return false;
-    return !best.has(Term::backlash) || here > most_promised(without_jumps(used, best.jumps), best.fit);
+    return !best.has(Term::backlash) ||
+           here > kStandsOut * most_promised(without_jumps(used, best.jumps), best.fit);
   }
 
   void judge(const Session& repaired) {

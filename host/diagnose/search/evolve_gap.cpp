@@ -61,4 +61,17 @@ Model evolve_gap(const Session& session, const Model& from, const NoiseModel& no
   return moved(from, free, evolve(cost, Eigen::VectorXd::Zero(numbers), search));
 }
 
+Fit evolved_gap(const Session& session, Fit found, double worth_going_on, int most_times,
+                const FitOptions& options, unsigned threads) {
+  for (int time = 0; time < most_times; ++time) {
+    const Model start = evolve_gap(session, found.model, sharp(found.noise, kFinerDisturbance), found.free,
+                                   options, kGapNear, threads);
+    Fit further = fit(session, start, found.noise, found.free, options);
+    const double better = further.log_likelihood - found.log_likelihood;
+    if (better > 0) found = std::move(further);
+    if (better < worth_going_on) break;
+  }
+  return found;
+}
+
 }  // namespace cartwright

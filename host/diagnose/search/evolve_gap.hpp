@@ -37,4 +37,9 @@ Model evolve_gap(const Session& session, const Model& from, const NoiseModel& no
                  const std::vector<FreeParameter>& free, FitOptions options, const EvolutionEffort& effort,
                  unsigned threads);
 
+/// A fit whose numbers evolve and are fitted again, at most so many times, for as long as that gains
+/// `worth_going_on` [nats]; never worse than `found`.
+Fit evolved_gap(const Session& session, Fit found, double worth_going_on, int most_times,
+                const FitOptions& options, unsigned threads);
+
 }  // namespace cartwright

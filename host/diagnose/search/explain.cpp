@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "host/diagnose/fit/basis.hpp"
 #include "host/diagnose/search/evolve_gap.hpp"
@@ -20,6 +21,7 @@ namespace {
 constexpr std::size_t kMostStages = 8;
 /// What is found third, a gap among them, mostly makes up for what the numbers of the gap still lack.
 constexpr std::size_t kMostEffectsWithGap = 2;
+constexpr int kMostEvolutions = 3;  // of a gap, after each effect
 constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
 constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
@@ -50,6 +52,7 @@ class Explainer {
     search.refitted.fit = fit(session_, search.refitted.fit.model, search.refitted.fit.noise,
                               search.refitted.fit.free, fit_options_);
     search.best = search.refitted;
+    bool went_on = false;
     for (std::size_t stage = 0; stage < kMostStages && may_have_more(search.best); ++stage) {
       report("looking for what was left out",
              std::min(0.95,
@@ -58,17 +61,21 @@ class Explainer {
       const double bar = least_further_gain(so_far);
       std::vector<Explanation> tried = next_effects(search, stage, bar);
       if (tried.empty() || tried.front().score() - search.best.score() < bar) break;
-      if (only_went_on(search, tried.front(), bar)) break;
+      if (only_went_on(search, tried.front(), bar)) {
+        if (std::exchange(went_on, true)) break;  // once more, from there
+        continue;
+      }
       Contest contest{
           tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
       search.best = tried.front();
       contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
                                   std::make_move_iterator(tried.end()));
       search.contests.push_back(std::move(contest));
-      evolve_again(search);
+      evolve_again(search, found_gap_last(search) ? 1 : kMostEvolutions);
       swap_stand_ins(search);
       drop_redundant(search);
     }
+    if (found_gap_last(search)) evolve_again(search, kMostEvolutions);
     add_cogging_waves(search);
     report("done", 1);
     return search;
@@ -88,8 +95,12 @@ class Explainer {
   }
 
   bool may_have_more(const Explanation& found) const {
-    const std::size_t most = found.has(Term::backlash) ? kMostEffectsWithGap : options_.most_effects;
-    return found.effects_beyond_every_cart() < std::min(most, options_.most_effects);
+    if (!found.has(Term::backlash)) return found.effects_beyond_every_cart() < options_.most_effects;
+    const auto found_beside_friction = std::count_if(
+        found.effects.begin(), found.effects.end(),
+        [](Term one) { return one != Term::viscous_friction && one != Term::coulomb_friction; });
+    return static_cast<std::size_t>(found_beside_friction) <
+           std::min(kMostEffectsWithGap, options_.most_effects);
   }
 
   /// What a further effect must gain.
@@ -122,7 +133,7 @@ class Explainer {
     }
     std::vector<Fit> fits(chosen.size());
     if (beside_gap) {
-      fits = race_beside_gap(data, base.fit, chosen, kSketchNearEnough * to_reach, sketch, options_.threads);
+      fits = race_beside_gap(data, base.fit, chosen, to_reach, sketch, options_.threads);
     } else {
       parallel_for(chosen.size(), options_.threads, [&](std::size_t i) {
         fits[i] = fit(data, chosen[i].start, chosen[i].noise.value_or(base.fit.noise), chosen[i].free,
@@ -253,23 +264,20 @@ class Explainer {
     return true;
   }
 
-  /// What was added beside a gap moves the gap's own numbers, and slopes do not lead there. What that gains
-  /// is the gap's.
-  void evolve_again(Search& search) const {
-    const Explanation& found = search.best;
+  static bool found_gap_last(const Search& search) {
+    return !search.best.effects.empty() && search.best.effects.back() == Term::backlash;
+  }
+
+  /// What is added beside a gap moves the gap's numbers, which evolve again; what that gains is the gap's.
+  void evolve_again(Search& search, int most_times) const {
     const auto gap = std::find_if(search.contests.begin(), search.contests.end(),
                                   [](const Contest& one) { return one.chosen == Term::backlash; });
-    if (gap == search.contests.end() || found.effects.back() == Term::backlash) return;
-    const Session data = without_jumps(session_, found.jumps);
-    const FitOptions options = with_kinks(found.fit.model, fit_options_);
-    const Model start = evolve_gap(data, found.fit.model, sharp(found.fit.noise, kFinerDisturbance),
-                                   found.fit.free, options, kGapNear, options_.threads);
-    Explanation evolved = found;
-    evolved.fit = fit(data, start, found.fit.noise, found.fit.free, options);
-    const double better = evolved.score() - found.score();
-    if (better <= 0) return;
-    gap->gain += better;
-    search.best = std::move(evolved);
+    if (gap == search.contests.end()) return;
+    Explanation& best = search.best;
+    const double bar = least_further_gain(best.score() - search.refitted.score()), before = best.score();
+    best.fit = evolved_gap(without_jumps(session_, best.jumps), best.fit, bar, most_times,
+                           with_kinks(best.fit.model, fit_options_), options_.threads);
+    gap->gain += best.score() - before;
   }
 
   /// An explanation refitted with another term in the place of one of its effects, which starts as it was
@@ -369,28 +377,6 @@ class Explainer {
 };
 
 }  // namespace
-
-double Explanation::score() const {
-  const double numbers = static_cast<double>(fit.free.size()) + 2 * static_cast<double>(jumps.size());
-  return fit.log_likelihood - kCostPerNumber * numbers;
-}
-
-bool Explanation::has(Term term) const {
-  return std::find(effects.begin(), effects.end(), term) != effects.end();
-}
-
-bool Explanation::has_two_masses() const {
-  return std::any_of(effects.begin(), effects.end(), two_masses);
-}
-
-std::size_t Explanation::effects_beyond_every_cart() const {
-  const auto others = std::count_if(effects.begin(), effects.end(), std::not_fn(every_cart_has));
-  return static_cast<std::size_t>(others);
-}
-
-bool every_cart_has(Term term) {
-  return term == Term::viscous_friction || term == Term::coulomb_friction || term == Term::constant_force;
-}
 
 Search explain(const Session& session, const Model& nominal, const SearchOptions& options) {
   return Explainer(session, nominal, options).run();

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "host/diagnose/search/explain.hpp"
+#include "host/diagnose/search/explanation.hpp"
 
 namespace cartwright {
 
