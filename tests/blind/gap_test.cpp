@@ -34,6 +34,35 @@ TEST(Gap, IsLookedForAgainOnceWhatIsBesideItIsFound) {
   EXPECT_TRUE(gap->covered);
 }
 
+/// A lag in the drive makes a coupling with 3 % of the mass on the cart's side promise more than the gap.
+TEST(Gap, BesideADelayIsNotTakenForACouplingOfNextToNoMass) {
+  const Outcome outcome = ask({{"backlash", "transport_delay"}, Size::medium, 770}, Ask::diagnosis);
+  EXPECT_TRUE(outcome.all_named());
+  EXPECT_FALSE(outcome.false_name());
+}
+
+/// From numbers that are not far off slopes end thousands of nats too early.
+TEST(Gap, EvolvesBeyondWhereSlopesEnd) {
+  using P = Parameter;
+  const Session session = question_of({{"backlash", "quadratic_drag"}, Size::medium, 819}).session;
+  Model start(1.926);
+  start.set(P::viscous_coefficient, 5.908)
+      .set(P::coulomb_level, 0.1546)
+      .set(P::drag_coefficient, 1)
+      .set(P::backlash_gap, 3e-4)
+      .set(P::backlash_load_share, 0.4)
+      .set(P::backlash_load_friction_share, 0.5)
+      .set(P::backlash_load_damping_share, 0.2)
+      .set(P::backlash_contact_resonance, 250)
+      .set(P::backlash_contact_damping_ratio, 0.2);
+  const FitOptions options = one_round_over_kinks();
+  const Fit found = fit(session, start, kSharpNoise, free_parameters(start, facts_of(session)), options);
+  const Fit evolved = evolved_gap(session, found, 100, 1, options, 2);
+  EXPECT_GT(evolved.log_likelihood, found.log_likelihood + 300);
+  const Fit not_asked = evolved_gap(session, found, 100, 0, options, 2);
+  EXPECT_EQ(not_asked.log_likelihood, found.log_likelihood);
+}
+
 /// The start and its noise are what a search for the gap alone found on this cart: half the gap, less than
 /// half of the share. With that noise slopes lead nowhere near the truth; the race has a small disturbance.
 TEST(Gap, RaceFindsWhatIsBesideItWhereSlopesWithTheNoiseFoundDoNot) {

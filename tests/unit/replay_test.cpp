@@ -51,6 +51,23 @@ TEST(Replay, TheTrueModelPredictsEveryRow) {
   }
 }
 
+TEST(Replay, TwoMassesTakenAsLinearByStepsMissByNearlyTheSame) {
+  const Model truth = cart()
+                          .set(Parameter::backlash_gap, 5e-4)
+                          .set(Parameter::backlash_contact_resonance, 250)
+                          .set(Parameter::stribeck_excess, 0.4)
+                          .set(Parameter::stribeck_speed, 0.03);
+  const Recording recording = drive(truth, 2600, 3);
+  const Model wrong = Model(truth).set(Parameter::stribeck_excess, 0.2);
+  ReplayOptions options;
+  const double exact_m = squared_error(replay_windows(wrong, recording, options), recording.y_m).rms_m();
+  options.linear_by_steps = true;
+  const double by_steps_m = squared_error(replay_windows(wrong, recording, options), recording.y_m).rms_m();
+  EXPECT_GT(exact_m, 1e-5);
+  EXPECT_NE(by_steps_m, exact_m);
+  EXPECT_NEAR(by_steps_m, exact_m, 0.01 * exact_m);
+}
+
 TEST(Replay, AWrongGainShowsInWindowsAndGrowsOpenLoop) {
   const Recording recording = drive(cart(), 2600, 3);
   const Model wrong = cart().set(Parameter::voltage_gain, 1.9 * 1.05);
