@@ -126,7 +126,7 @@ class Diagnostician {
       const std::vector<Promise> promises = scan_pushes(session, fit, facts_of(session), as_it_is);
       return promises.empty() ? 0 : promises.front().log_likelihood_gain;
     };
-    const Session out = only(session_, held);
+    const Session out = put_right(only(session_, held));
     const double here = most_promised(out, fit(out, best.fit.model, best.fit.noise, {}, as_it_is));
     if (here <= 2 * kLeastGain) return false;
     return !best.has(Term::backlash) ||
@@ -242,8 +242,7 @@ class Diagnostician {
     result_.uniform_motion_m = window_rmse_m(Model(0.0), repaired, options_.threads);
     result_.used_closed_loop = errors(closed_loop_errors, used, repaired).first;
     if (!held.empty()) {
-      const Session out = only(session_, held);
-      const Session mended = found.best.has(Term::encoder_missed_counts) ? repair(out) : out;
+      const Session out = only(session_, held), mended = put_right(out);
       held_floor_m_ = floor_m(out);
       std::tie(result_.held_out, windows_unseen_) = errors(window_errors, out, mended);
       result_.held_out_closed_loop = errors(closed_loop_errors, out, mended).first;
@@ -258,8 +257,9 @@ class Diagnostician {
     result_.noise_floor_m = std::min(floor, result_.used.with_effects);
   }
 
-  /// Lost counts of a recording are found with the model as it stands, nothing fitted but the noise's size.
-  Session repair(const Session& out) const {
+  /// Where counts are lost: those of other recordings, found with the model as it stands.
+  Session put_right(const Session& out) const {
+    if (!result_.search.best.has(Term::encoder_missed_counts)) return out;
     FitOptions as_it_is = fit_options_;
     as_it_is.move_noise = false;
     const Fit& best = result_.search.best.fit;
