@@ -14,7 +14,7 @@ struct ReplayOptions {
   double step_s = 1.5e-3;           ///< greatest inner step of the plant; stiff models choose a finer one
   std::size_t open_loop_rows = 20;  ///< rows that give the start state of the open loop
   int iterations = 12;              ///< most Gauss-Newton steps for one start state
-  bool linear_by_steps = false;     ///< of two masses, PlantOptions::linear_by_steps: faster, a little less exact
+  bool linear_by_steps = false;     ///< of two masses, as PlantOptions::linear_by_steps: faster
   std::optional<double> started_s;  ///< when the recording began, where only a part of it is replayed
 };
 
