@@ -3,8 +3,11 @@
 #include <algorithm>
 
 namespace cartwright {
+namespace {
 
 using P = Parameter;
+
+}  // namespace
 
 Model with_share(Model model, double share) {
   const double before = model[P::backlash_load_share];
