@@ -33,8 +33,8 @@ Both both(Lanes of) {
   return {of[0], of[1]};
 }
 
-Lanes swapped(Lanes both) {
-  return __builtin_shufflevector(both, both, 1, 0);
+Lanes swapped(Lanes of) {
+  return __builtin_shufflevector(of, of, 1, 0);
 }
 
 struct Motion {

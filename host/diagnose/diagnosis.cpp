@@ -27,11 +27,11 @@ using P = Parameter;
 
 /// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
 constexpr double kLeastParameterChange = 0.08;
+/// The greatest of ten that are alike is seldom more than so many times the greatest of nine.
+constexpr double kStandsOut = 2;
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
 constexpr double kMostLeftOfWindows = 0.2;
-/// The greatest of ten that are alike is seldom more than so many times the greatest of nine.
-constexpr double kStandsOut = 2;
 constexpr double kShowsMismatch = 1.5;  // window error over noise floor
 constexpr double kMostLeftOfLikelihood = 0.5;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the

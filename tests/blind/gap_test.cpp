@@ -21,6 +21,21 @@ FitOptions one_round_over_kinks() {
   return options;
 }
 
+/// Teeth across a gap; the shares are those of the cart's side.
+struct Teeth {
+  double gap_m, load_share, friction_share, damping_share, resonance_hz, damping_ratio;
+};
+
+Model with_teeth(Model model, const Teeth& teeth) {
+  using P = Parameter;
+  return model.set(P::backlash_gap, teeth.gap_m)
+      .set(P::backlash_load_share, teeth.load_share)
+      .set(P::backlash_load_friction_share, teeth.friction_share)
+      .set(P::backlash_load_damping_share, teeth.damping_share)
+      .set(P::backlash_contact_resonance, teeth.resonance_hz)
+      .set(P::backlash_contact_damping_ratio, teeth.damping_ratio);
+}
+
 /// With the gap alone in the model its numbers come out wrong for what the saturation does; once both are in,
 /// they must be looked for again. Without that the gap was 23 % off here.
 TEST(Gap, IsLookedForAgainOnceWhatIsBesideItIsFound) {
@@ -41,20 +56,15 @@ TEST(Gap, BesideADelayIsNotTakenForACouplingOfNextToNoMass) {
   EXPECT_FALSE(outcome.false_name());
 }
 
-/// From numbers that are not far off slopes end thousands of nats too early.
+/// From numbers that are not far off slopes end hundreds of nats too early.
 TEST(Gap, EvolvesBeyondWhereSlopesEnd) {
   using P = Parameter;
   const Session session = question_of({{"backlash", "quadratic_drag"}, Size::medium, 819}).session;
-  Model start(1.926);
-  start.set(P::viscous_coefficient, 5.908)
-      .set(P::coulomb_level, 0.1546)
-      .set(P::drag_coefficient, 1)
-      .set(P::backlash_gap, 3e-4)
-      .set(P::backlash_load_share, 0.4)
-      .set(P::backlash_load_friction_share, 0.5)
-      .set(P::backlash_load_damping_share, 0.2)
-      .set(P::backlash_contact_resonance, 250)
-      .set(P::backlash_contact_damping_ratio, 0.2);
+  const Model start = with_teeth(Model(1.926)
+                                     .set(P::viscous_coefficient, 5.908)
+                                     .set(P::coulomb_level, 0.1546)
+                                     .set(P::drag_coefficient, 1),
+                                 {3e-4, 0.4, 0.5, 0.2, 250, 0.2});
   const FitOptions options = one_round_over_kinks();
   const Fit found = fit(session, start, kSharpNoise, free_parameters(start, facts_of(session)), options);
   const Fit evolved = evolved_gap(session, found, 100, 1, options, 2);
@@ -69,16 +79,12 @@ TEST(Gap, RaceFindsWhatIsBesideItWhereSlopesWithTheNoiseFoundDoNot) {
   using P = Parameter;
   const Case asked{{"backlash", "asymmetric_viscous_friction"}, Size::medium, 741};
   const Session session = question_of(asked).session;
-  Promise promise{Term::asymmetric_viscous_friction, Model(1.696), {}};
-  promise.start.set(P::viscous_coefficient, 6.589)
-      .set(P::coulomb_level, 0.332)
-      .set(P::backlash_gap, 2.4e-4)
-      .set(P::backlash_load_share, 0.268)
-      .set(P::backlash_load_friction_share, 0.283)
-      .set(P::backlash_load_damping_share, 0.138)
-      .set(P::backlash_contact_resonance, 288)
-      .set(P::backlash_contact_damping_ratio, 0.2)
-      .set(P::asymmetric_viscous_difference, 0.04);
+  const Model start = with_teeth(Model(1.696)
+                                     .set(P::viscous_coefficient, 6.589)
+                                     .set(P::coulomb_level, 0.332)
+                                     .set(P::asymmetric_viscous_difference, 0.04),
+                                 {2.4e-4, 0.268, 0.283, 0.138, 288, 0.2});
+  Promise promise{Term::asymmetric_viscous_friction, start, {}};
   promise.free = free_parameters(promise.start, facts_of(session));
   FitOptions options = one_round_over_kinks();
   options.covariance = false;
@@ -96,15 +102,9 @@ TEST(Gap, ThatWasFoundAloneHidesWhatIsBesideItUntilItIsMoved) {
   using P = Parameter;
   const Session session = question_of({{"backlash", "quadratic_drag"}, Size::medium, 819}).session;
   const SessionFacts facts = facts_of(session);
-  Model alone(1.926);
-  alone.set(P::viscous_coefficient, 5.908)
-      .set(P::coulomb_level, 0.1546)
-      .set(P::backlash_gap, 5.416e-4)
-      .set(P::backlash_load_share, 0.6696)
-      .set(P::backlash_load_friction_share, 0.8757)
-      .set(P::backlash_load_damping_share, 0.2519)
-      .set(P::backlash_contact_resonance, 282.8)
-      .set(P::backlash_contact_damping_ratio, 0.1562);
+  const Model alone =
+      with_teeth(Model(1.926).set(P::viscous_coefficient, 5.908).set(P::coulomb_level, 0.1546),
+                 {5.416e-4, 0.6696, 0.8757, 0.2519, 282.8, 0.1562});
   FitOptions options = one_round_over_kinks();
   options.most_iterations = 3;
   const Fit base = fit(session, alone, kSharpNoise, free_parameters(alone, facts), options);

@@ -269,15 +269,17 @@ class Explainer {
   }
 
   /// What is added beside a gap moves the gap's numbers, which evolve again; what that gains is the gap's.
-  void evolve_again(Search& search, int most_times) const {
+  void evolve_again(Search& search, int most_times) {
     const auto gap = std::find_if(search.contests.begin(), search.contests.end(),
                                   [](const Contest& one) { return one.chosen == Term::backlash; });
-    if (gap == search.contests.end()) return;
     Explanation& best = search.best;
-    const double bar = least_further_gain(best.score() - search.refitted.score()), before = best.score();
+    const double before = best.score();
+    if (gap == search.contests.end() || before == evolved_in_vain_) return;
+    const double bar = least_further_gain(before - search.refitted.score());
     best.fit = evolved_gap(without_jumps(session_, best.jumps), best.fit, bar, most_times,
                            with_kinks(best.fit.model, fit_options_), options_.threads);
     gap->gain += best.score() - before;
+    if (best.score() == before) evolved_in_vain_ = before;
   }
 
   /// An explanation refitted with another term in the place of one of its effects, which starts as it was
@@ -374,6 +376,8 @@ class Explainer {
   const SearchOptions& options_;
   SessionFacts facts_;
   FitOptions fit_options_;
+  /// The score from which a gap's evolution, the same each time, led nowhere.
+  std::optional<double> evolved_in_vain_;
 };
 
 }  // namespace

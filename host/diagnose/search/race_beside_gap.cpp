@@ -31,9 +31,10 @@ std::vector<Fit> race_beside_gap(const Session& session, const Fit& base,
     if (fits.back().log_likelihood > fits[first].log_likelihood) first = fits.size() - 1;
     gained = fits[first].log_likelihood - base.log_likelihood;
   }
+  if (fits.empty()) return fits;
   // What it lacks must be less than was promised, and then less than the step before brought.
-  const double promised = fits.empty() ? 0 : promises[first].log_likelihood_gain;
-  for (double step = promised; gained < worth_going_on && step > worth_going_on - gained;) {
+  double step = promises[first].log_likelihood_gain;
+  while (gained < worth_going_on && step > worth_going_on - gained) {
     Fit further = evolved(fits[first].model, promises[first], kFinal);
     if (further.log_likelihood > fits[first].log_likelihood) fits[first] = std::move(further);
     step = fits[first].log_likelihood - base.log_likelihood - gained;
