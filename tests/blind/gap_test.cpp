@@ -13,6 +13,8 @@
 namespace cartwright::blind {
 namespace {
 
+using P = Parameter;
+
 FitOptions one_round_over_kinks() {
   FitOptions options;
   options.difference_step = kStepOverKinks;
@@ -27,7 +29,6 @@ struct Teeth {
 };
 
 Model with_teeth(Model model, const Teeth& teeth) {
-  using P = Parameter;
   return model.set(P::backlash_gap, teeth.gap_m)
       .set(P::backlash_load_share, teeth.load_share)
       .set(P::backlash_load_friction_share, teeth.friction_share)
@@ -58,7 +59,6 @@ TEST(Gap, BesideADelayIsNotTakenForACouplingOfNextToNoMass) {
 
 /// From numbers that are not far off slopes end hundreds of nats too early.
 TEST(Gap, EvolvesBeyondWhereSlopesEnd) {
-  using P = Parameter;
   const Session session = question_of({{"backlash", "quadratic_drag"}, Size::medium, 819}).session;
   const Model start = with_teeth(Model(1.926)
                                      .set(P::viscous_coefficient, 5.908)
@@ -76,7 +76,6 @@ TEST(Gap, EvolvesBeyondWhereSlopesEnd) {
 /// The start and its noise are what a search for the gap alone found on this cart: half the gap, less than
 /// half of the share. With that noise slopes lead nowhere near the truth; the race has a small disturbance.
 TEST(Gap, RaceFindsWhatIsBesideItWhereSlopesWithTheNoiseFoundDoNot) {
-  using P = Parameter;
   const Case asked{{"backlash", "asymmetric_viscous_friction"}, Size::medium, 741};
   const Session session = question_of(asked).session;
   const Model start = with_teeth(Model(1.696)
@@ -99,7 +98,6 @@ TEST(Gap, RaceFindsWhatIsBesideItWhereSlopesWithTheNoiseFoundDoNot) {
 
 /// The numbers are those of the gap found alone on this cart. Bent towards the drag, it hides it.
 TEST(Gap, ThatWasFoundAloneHidesWhatIsBesideItUntilItIsMoved) {
-  using P = Parameter;
   const Session session = question_of({{"backlash", "quadratic_drag"}, Size::medium, 819}).session;
   const SessionFacts facts = facts_of(session);
   const Model alone =

@@ -11,12 +11,8 @@ namespace {
 
 using test::battery;
 using test::IndependentCart;
+using test::nominal;
 using P = Parameter;
-
-/// What an engineer would have: values a few per cent off.
-Model nominal(double gain = 1.87, double viscous = 5.2, double coulomb = 0.41) {
-  return Model(gain).set(P::viscous_coefficient, viscous).set(P::coulomb_level, coulomb);
-}
 
 const Estimate* found(const Diagnosis& d, Parameter id) {
   for (const Effect& effect : d.effects) {

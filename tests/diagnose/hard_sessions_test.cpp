@@ -15,13 +15,10 @@ namespace {
 
 using test::battery;
 using test::IndependentCart;
+using test::nominal;
 using testing::Contains;
 using testing::HasSubstr;
 using P = Parameter;
-
-Model nominal() {
-  return Model(1.87).set(P::viscous_coefficient, 5.2).set(P::coulomb_level, 0.41);
-}
 
 TEST(HardSessions, AWrongSignIsSaidAndNothingIsNamed) {
   Session session = battery({});

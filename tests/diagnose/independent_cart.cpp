@@ -113,4 +113,10 @@ Session battery(const IndependentCart& cart) {
   return session;
 }
 
+Model nominal(double gain_m_per_s2_V, double viscous_per_s, double coulomb_m_per_s2) {
+  return Model(gain_m_per_s2_V)
+      .set(Parameter::viscous_coefficient, viscous_per_s)
+      .set(Parameter::coulomb_level, coulomb_m_per_s2);
+}
+
 }  // namespace cartwright::test

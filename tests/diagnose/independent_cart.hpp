@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "common/model/model.hpp"
 #include "host/session/session.hpp"
 
 namespace cartwright::test {
@@ -28,5 +29,8 @@ struct IndependentCart {
 /// A short battery on that cart: three repeats of a step, two relays, two tracks and a dither, 4 s each, with
 /// an encoder that rounds, its noise, a small coloured disturbance and jittering ticks.
 Session battery(const IndependentCart& cart);
+
+/// What an engineer would have of it: values a few per cent off.
+Model nominal(double gain_m_per_s2_V = 1.87, double viscous_per_s = 5.2, double coulomb_m_per_s2 = 0.41);
 
 }  // namespace cartwright::test

@@ -22,12 +22,12 @@ Diagnosis answer() {
   return d;
 }
 
-Model cart() {
+Model exact() {
   return Model(1.9).set(P::viscous_coefficient, 5).set(P::coulomb_level, 0.4);
 }
 
 Model off_by(double factor) {
-  return cart().set(P::voltage_gain, 1.9 * factor);
+  return exact().set(P::voltage_gain, 1.9 * factor);
 }
 
 /// Two tracks of that cart, predicted by a nominal model and by a found one.
@@ -38,12 +38,12 @@ WindowErrors tracks(const Model& nominal, const Model& found) {
 }
 
 TEST(PredictsNoBetter, IsSilentWhereTheAnswerPredictsBetter) {
-  const WindowErrors windows = tracks(off_by(1.02), cart());
+  const WindowErrors windows = tracks(off_by(1.02), exact());
   EXPECT_THAT(predicts_no_better(answer(), windows, windows), IsEmpty());
 }
 
 TEST(PredictsNoBetter, SaysThatTheNominalModelPredictsUnseenRecordingsBetter) {
-  const WindowErrors good = tracks(off_by(1.02), cart()), bad = tracks(off_by(1.02), off_by(1.1));
+  const WindowErrors good = tracks(off_by(1.02), exact()), bad = tracks(off_by(1.02), off_by(1.1));
   EXPECT_THAT(predicts_no_better(answer(), good, bad), HasSubstr("held-out"));
 }
 
@@ -65,7 +65,7 @@ TEST(PredictsNoBetter, DoesNotJudgeByTwoWindows) {
 }
 
 TEST(PredictsNoBetter, SaysThatACartWithoutForcesPredictsBetter) {
-  const WindowErrors windows = tracks(off_by(1.02), cart());
+  const WindowErrors windows = tracks(off_by(1.02), exact());
   Diagnosis d = answer();
   d.uniform_motion_m = 4e-5;
   EXPECT_THAT(predicts_no_better(d, windows, windows), HasSubstr("keeps its speed"));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -41,6 +42,12 @@ struct SineSignal {
     return data;
   }
 };
+
+/// Signals that a test of random ones draws: as many as usual, or what CARTWRIGHT_SINEFIT_DRAWS says.
+inline int draws(int usual) {
+  const char* wanted = std::getenv("CARTWRIGHT_SINEFIT_DRAWS");
+  return wanted == nullptr ? usual : std::atoi(wanted);
+}
 
 /// Difference of two angles in (-pi, pi].
 inline double angle_between(double a, double b) {

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "host/relay/sinefit.hpp"
 #include "tests/unit/relay/sine_signals.hpp"
@@ -12,11 +11,7 @@ namespace {
 
 using test::SineSignal;
 
-/// 100 000, or what CARTWRIGHT_SINEFIT_DRAWS says.
-int draws() {
-  const char* wanted = std::getenv("CARTWRIGHT_SINEFIT_DRAWS");
-  return wanted == nullptr ? 100000 : std::atoi(wanted);
-}
+const int kSignals = test::draws(100000);
 
 class Draw {
  public:
@@ -90,32 +85,32 @@ double coverage(const Counts& counts) {
 }
 
 TEST(SineFitProperties, IntervalsHoldWithOffsetsOfEverySize) {
-  const Counts c = run({1.5, 40, false, false}, 1, draws() / 4, 31);
+  const Counts c = run({1.5, 40, false, false}, 1, kSignals / 4, 31);
   EXPECT_NEAR(coverage(c), 0.95, 0.01);
   EXPECT_EQ(c.far_off, 0);
-  EXPECT_LT(c.refused, 1e-3 * draws());
+  EXPECT_LT(c.refused, 1e-3 * kSignals);
 }
 
 TEST(SineFitProperties, IntervalsHoldBesideATrend) {
-  const Counts c = run({1.5, 40, true, false}, 1, draws() * 3 / 8, 32);
+  const Counts c = run({1.5, 40, true, false}, 1, kSignals * 3 / 8, 32);
   EXPECT_NEAR(coverage(c), 0.95, 0.01);
   EXPECT_EQ(c.far_off, 0);
-  EXPECT_LT(c.refused, 0.03 * draws());  // with less than two periods, it may be a part of one on a slope
+  EXPECT_LT(c.refused, 0.03 * kSignals);  // with less than two periods, it may be a part of one on a slope
 }
 
 TEST(SineFitProperties, IntervalsHoldBesideAHarmonicFittedOrNot) {
-  const Counts fitted = run({2, 12, false, true}, 3, draws() / 16, 33);
+  const Counts fitted = run({2, 12, false, true}, 3, kSignals / 16, 33);
   EXPECT_NEAR(coverage(fitted), 0.95, 0.01);
   EXPECT_EQ(fitted.far_off, 0);
-  const Counts left_out = run({2, 12, false, true}, 1, draws() / 16, 34);
+  const Counts left_out = run({2, 12, false, true}, 1, kSignals / 16, 34);
   EXPECT_GT(coverage(left_out), 0.94);  // wider: what is left is not white
   EXPECT_EQ(left_out.far_off, 0);
-  EXPECT_LT(fitted.refused + left_out.refused, 0.01 * draws());
+  EXPECT_LT(fitted.refused + left_out.refused, 0.01 * kSignals);
 }
 
 TEST(SineFitProperties, FewerThanOnePeriodIsRefusedOrGivenAWideInterval) {
   for (const bool trend : {false, true}) {
-    const Counts c = run({0.03, 1, trend, false}, 1, draws() / 8, 35);
+    const Counts c = run({0.03, 1, trend, false}, 1, kSignals / 8, 35);
     EXPECT_EQ(c.far_off, 0);
     EXPECT_GT(c.refused, 0.99 * (c.fitted + c.refused));
   }

@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cstdlib>
 #include <string>
 
 #include "tests/unit/relay/sine_signals.hpp"
@@ -15,12 +14,7 @@ namespace {
 using test::angle_between;
 using test::SineSignal;
 constexpr double kTwoPi = 2 * std::numbers::pi;
-
-/// Draws of the random-signal tests: a few thousand, or what CARTWRIGHT_SINEFIT_DRAWS says.
-int draws() {
-  const char* wanted = std::getenv("CARTWRIGHT_SINEFIT_DRAWS");
-  return wanted == nullptr ? 4000 : std::atoi(wanted);
-}
+const int kDraws = test::draws(4000);
 
 bool covers(const Estimate& estimate, double truth) {
   return estimate.low <= truth && truth <= estimate.high;
@@ -52,7 +46,7 @@ TEST(SineFit, ReachesTheCramerRaoBoundFrom40To0Decibels) {
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), periods(4, 150);
   for (const double snr_db : {40.0, 20.0, 10.0, 3.0, 0.0}) {
     Eigen::Vector3d excess = Eigen::Vector3d::Zero();
-    const int n = std::max(draws(), 4000);
+    const int n = std::max(kDraws, 4000);
     for (int i = 0; i < n; ++i) {
       SineSignal s{.amplitude = 2, .phase_rad = angle(random), .offset = 0.7, .noise = noise_for(2, snr_db)};
       s.frequency_hz = periods(random) / (s.samples * s.period_s);
@@ -73,7 +67,7 @@ TEST(SineFit, FindsTheRightPeakAtZeroDecibelsWhateverTheFrequency) {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), periods(2, 195);
   int gross = 0;
-  const int n = std::max(draws(), 100000);
+  const int n = std::max(kDraws, 100000);
   for (int i = 0; i < n; ++i) {
     SineSignal s{.phase_rad = angle(random), .offset = -3, .noise = noise_for(1, 0)};
     const double record_s = s.samples * s.period_s;
@@ -90,7 +84,7 @@ TEST(SineFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), periods(1.6, 40),
       snr(0, 50);
   std::array<int, 4> inside{};
-  for (int i = 0; i < draws(); ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     SineSignal s{.phase_rad = angle(random),
                  .offset = 5,
                  .start_s = 3,
@@ -105,7 +99,7 @@ TEST(SineFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
     inside[2] += phase_covered(fit->phase_rad, s.phase_rad);
     inside[3] += covers(fit->offset, s.offset);
   }
-  for (const int count : inside) EXPECT_NEAR(count / static_cast<double>(draws()), 0.95, 0.015);
+  for (const int count : inside) EXPECT_NEAR(count / static_cast<double>(kDraws), 0.95, 0.015);
 }
 
 TEST(SineFit, IntervalsStayHonestWithColouredNoiseAndQuantisation) {
@@ -114,7 +108,7 @@ TEST(SineFit, IntervalsStayHonestWithColouredNoiseAndQuantisation) {
       unit(0, 1);
   for (const bool quantised : {false, true}) {
     std::array<int, 3> inside{};
-    const int n = draws() / 4;
+    const int n = kDraws / 4;
     for (int i = 0; i < n; ++i) {
       SineSignal s{.phase_rad = angle(random), .offset = unit(random), .samples = 2000};
       s.frequency_hz = periods(random) / (s.samples * s.period_s);
@@ -167,14 +161,14 @@ TEST(SineFit, NeverGivesAConfidentWrongAnswerBelowOnePeriod) {
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), periods(0.05, 1),
       snr(0, 60);
   int wrong = 0;
-  for (int i = 0; i < draws() / 4; ++i) {
+  for (int i = 0; i < kDraws / 4; ++i) {
     SineSignal s{.phase_rad = angle(random), .offset = 1, .noise = noise_for(1, snr(random))};
     s.frequency_hz = periods(random) / (s.samples * s.period_s);
     const auto data = s.draw(random);
     const auto fit = sinefit(data.t_s, data.y);
     if (fit && !covers(fit->frequency_hz, s.frequency_hz)) ++wrong;
   }
-  EXPECT_LT(wrong, 0.05 * draws() / 4);
+  EXPECT_LT(wrong, 0.05 * kDraws / 4);
   SineSignal half{.frequency_hz = 0.25};
   const auto data = half.draw(random);
   const auto refused = sinefit(data.t_s, data.y);
