@@ -25,6 +25,7 @@ struct Recording {
 
   std::size_t size() const { return t_s.size(); }
   bool has_controller() const { return !std::holds_alternative<std::monostate>(controller); }
+  const std::string& original() const { return repeat_of.empty() ? file : repeat_of; }
   double added_V(std::size_t row) const { return d_V.empty() ? 0.0 : d_V[row]; }
 };
 

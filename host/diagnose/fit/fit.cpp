@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
 
+#include "host/diagnose/fit/block_covariance.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
@@ -151,8 +156,8 @@ class Fitter {
     }
   }
 
-  void normal_equations(const Eigen::MatrixXd& columns, const std::vector<double>& e, Eigen::MatrixXd& h,
-                        Eigen::VectorXd& g) const {
+  void normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& columns, std::span<const double> e,
+                        Eigen::MatrixXd& h, Eigen::VectorXd& g) const {
     Eigen::VectorXd slope(columns.rows()), weight = Eigen::VectorXd::Ones(columns.rows());
     for (Eigen::Index k = 0; k < columns.rows(); ++k) {
       const double error = e[static_cast<std::size_t>(k)];
@@ -175,33 +180,36 @@ class Fitter {
     result.converged = converged;
     const Eigen::MatrixXd columns =
         options_.covariance ? jacobian(at) : Eigen::MatrixXd(static_cast<Eigen::Index>(e.size()), 0);
-    Eigen::MatrixXd h, meat = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-    Eigen::VectorXd g;
-    normal_equations(columns, e, h, g);
     std::size_t row = 0;
     const auto block_rows = static_cast<std::size_t>(std::max(1.0, kBlock_s * session_.rig.sample_rate_hz));
     const std::size_t skip = settling_rows(session_.rig);
+    // Repeats go the same way past the same lines of the encoder: what they say at one time is said once.
+    std::map<std::pair<std::string, std::size_t>, Block> by_time;
     for (const Recording& recording : session_.recordings) {
       const std::size_t rows = recording.size() > skip ? recording.size() - skip : 0;
       for (std::size_t begin = 0; begin < rows; begin += block_rows) {
         const std::size_t end = std::min(begin + block_rows, rows);
-        Eigen::VectorXd score = Eigen::VectorXd::Zero(columns.cols());
+        const auto n = static_cast<Eigen::Index>(end - begin), first = static_cast<Eigen::Index>(row);
+        Block here;
+        normal_equations(columns.middleRows(first, n), std::span(e).subspan(row, end - begin),
+                         here.information, here.score);
         double sum = 0;
-        for (std::size_t k = begin; k < end; ++k, ++row) {
-          score += loss_slope_half(e[row], options_.outlier_m) *
-                   columns.row(static_cast<Eigen::Index>(row)).transpose();
+        for (const std::size_t last = row + end - begin; row < last; ++row)
           sum += loss(e[row], options_.outlier_m);
-        }
-        meat += score * score.transpose();
         result.block_loss_m2.push_back(sum);
+        const auto [block, is_new] = by_time.try_emplace({recording.original(), begin}, here);
+        if (is_new) continue;
+        block->second.score += here.score;
+        block->second.information += here.information;
       }
     }
-    h.diagonal() += 1e-12 * h.diagonal() + Eigen::VectorXd::Constant(h.rows(), 1e-30);
-    const Eigen::MatrixXd inverse = h.ldlt().solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
-    result.covariance = inverse * meat * inverse;
+    std::vector<Block> blocks;
+    for (auto& [time, block] : by_time) blocks.push_back(std::move(block));
+    result.covariance = block_covariance(blocks);
     // Few blocks know of a number that acts for a moment only, and their scores are too small once it is
     // fitted: no variance is taken to be less than white noise would leave.
     const double variance = result.error_rms_m * result.error_rms_m;
+    const Eigen::MatrixXd inverse = inverse_information(blocks);
     Eigen::VectorXd widen(columns.cols());
     for (Eigen::Index i = 0; i < columns.cols(); ++i) {
       widen[i] =

@@ -34,8 +34,8 @@ struct FitOptions {
 ///
 ///     log L = -N/2 log(1/N sum rho(e(k))),
 ///
-/// with the noise size concentrated out. `covariance` is the sandwich estimate over blocks of time: it stays
-/// honest when errors are coloured or the encoder's steps make them uneven.
+/// with the noise size concentrated out. `covariance` is that of block_covariance.hpp over blocks of time,
+/// repeats taken together: it stays honest when errors are coloured or the encoder's steps make them uneven.
 struct Fit {
   Model model;
   NoiseModel noise;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace cartwright {
+
+/// What a stretch of time says about the parameters of a least-squares fit: the sums of slope times error and
+/// of slope times slope of its rows.
+struct Block {
+  Eigen::VectorXd score;
+  Eigen::MatrixXd information;
+};
+
+/// Covariance of the parameters from how far each block moves them,
+///
+///     C = sum_b d_b d_b^T,   d_b = (H - A_b)^-1 s_b,   H = sum_b A_b,
+///
+/// the jackknife over blocks: it holds whatever the errors within a block have in common, and a block that
+/// bent the fit towards itself counts as if it had not. A block is taken to hold half of what is known about
+/// any number at most: what one block alone knows of, no other can judge.
+Eigen::MatrixXd block_covariance(const std::vector<Block>& blocks);
+
+/// The same per variance of the errors if they were white: H^-1.
+Eigen::MatrixXd inverse_information(const std::vector<Block>& blocks);
+
+}  // namespace cartwright

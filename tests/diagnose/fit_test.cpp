@@ -1,0 +1,40 @@
+#include "host/diagnose/fit/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/diagnose/fit/candidates.hpp"
+#include "tests/diagnose/independent_cart.hpp"
+
+namespace cartwright {
+namespace {
+
+/// With every recording of a session there twice, the second as a repeat of the first or of nothing.
+Session twice(const Session& session, bool as_repeats) {
+  Session out = session;
+  for (Recording r : session.recordings) {
+    r.repeat_of = as_repeats ? r.file : "";
+    r.file += "_again";
+    out.recordings.push_back(std::move(r));
+  }
+  return out;
+}
+
+double gain_error(const Session& session) {
+  const Model start = test::nominal();
+  FitOptions options;
+  options.damping_per_s = linear_damping(start);
+  return fit(session, start, {}, free_parameters(start, facts_of(session)), options)
+      .standard_error(Parameter::voltage_gain);
+}
+
+TEST(Fit, ARepeatThatIsTheSameToTheLastCountSaysNothingNew) {
+  Session session = test::battery({});
+  std::erase_if(session.recordings, [](const Recording& r) { return !r.repeat_of.empty(); });
+  const double once = gain_error(session);
+  EXPECT_GT(once, 0);
+  EXPECT_NEAR(gain_error(twice(session, true)), once, 0.02 * once);
+  EXPECT_LT(gain_error(twice(session, false)), 0.8 * once);
+}
+
+}  // namespace
+}  // namespace cartwright
