@@ -90,9 +90,8 @@ class Diagnostician {
 
     report("locating what is left", 0.82);
     const Session repaired = without_jumps(used, found.best.jumps);
-    result_.before = locate(used, found.refitted.fit, fit_options_, options_.threads);
-    result_.after = found.contests.empty() ? result_.before
-                                           : locate(repaired, found.best.fit, fit_options_, options_.threads);
+    result_.before = located(used, found.refitted.fit);
+    result_.after = found.contests.empty() ? result_.before : located(repaired, found.best.fit);
     result_.model = found.best.fit.model;
     result_.refitted = found.refitted.fit.model;
 
@@ -112,6 +111,11 @@ class Diagnostician {
  private:
   void report(std::string_view what, double share) const {
     if (options_.progress) options_.progress(what, share);
+  }
+
+  Location located(const Session& session, const Fit& fit) const {
+    return locate(session, fit, errors_of_surrogate(session, fit, fit_options_, options_.threads),
+                  fit_options_, options_.threads);
   }
 
   /// A push that happened only in the recording kept out would never be found without it. A gap's impacts
@@ -174,7 +178,7 @@ class Diagnostician {
     if (!held.empty())
       result_.held_out.with_effects = window_rmse_m(result_.model, only(session_, held), options_.threads);
     const Fit as_it_is = fit(used, result_.model, result_.search.best.fit.noise, {}, fit_options_);
-    result_.after = locate(used, as_it_is, fit_options_, options_.threads);
+    result_.after = located(used, as_it_is);
     describe_left_over(drive->share_left(), "");
     result_.unexplained->closest.reset();
     result_.unexplained->periods_m.clear();

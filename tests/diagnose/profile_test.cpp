@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "host/diagnose/fit/basis.hpp"
+#include "host/diagnose/judge/surrogate.hpp"
 #include "tests/diagnose/independent_cart.hpp"
 
 namespace cartwright {
@@ -16,8 +18,9 @@ using test::IndependentCart;
 class Profiles : public testing::Test {
  protected:
   /// Looks at the errors of the nominal terms, refitted to the battery of a cart.
-  void look_at(const IndependentCart& cart) {
-    session_ = battery(cart);
+  void look_at(const IndependentCart& cart) { look_at(battery(cart)); }
+  void look_at(const Session& session) {
+    session_ = session;
     const Model start =
         Model(1.87).set(Parameter::viscous_coefficient, 5.2).set(Parameter::coulomb_level, 0.41);
     options_.damping_per_s = linear_damping(start);
@@ -27,7 +30,9 @@ class Profiles : public testing::Test {
   }
 
   Profile over_way() const { return spatial_frequency_profile(session_, fit_, options_, 2); }
-  Profile over_frequency() const { return frequency_profile(session_, fit_); }
+  Profile over_frequency() const {
+    return frequency_profile(session_, fit_, errors_of_surrogate(session_, fit_, options_, 2));
+  }
   Profile over_lag() const { return input_lag_profile(session_, fit_); }
 
   Session session_;
@@ -90,6 +95,58 @@ TEST_F(Profiles, AVoltageThatArrivesLateStandsAtTheFirstLags) {
   EXPECT_LE(profile.at[profile.strongest()], 4 * session_.rig.period_s());
   EXPECT_LT(profile.value[profile.strongest()], 0)
       << "a change has not yet pushed as the model thinks it has";
+}
+
+/// Errors of eight recordings of 5 s: white ones, what a filter of one pole (time constant 10 ms) makes of
+/// them, or that with a line in it.
+class FrequencyProfile : public testing::Test {
+ protected:
+  FrequencyProfile() {
+    for (Recording& r : session_.recordings) r.t_s.resize(5000);
+    rows_ = 8 * (5000 - settling_rows(session_.rig));
+  }
+
+  std::vector<double> white() {
+    std::vector<double> errors(rows_);
+    for (double& e : errors) e = normal_(random_);
+    return errors;
+  }
+  std::vector<double> coloured() {
+    std::vector<double> errors = white();
+    double slow = 0;
+    for (double& e : errors) slow = 0.9 * slow + e, e = 2 * e + slow;
+    return errors;
+  }
+  std::vector<double> coloured_with_line(double frequency_hz) {
+    std::vector<double> errors = coloured();
+    for (std::size_t k = 0; k < rows_; ++k) {
+      errors[k] += 0.8 * std::sin(2 * M_PI * frequency_hz * 1e-3 * static_cast<double>(k));
+    }
+    return errors;
+  }
+  Profile profile(const std::vector<double>& errors, const std::vector<double>& alike) {
+    Fit fit;
+    fit.error_m = errors;
+    return frequency_profile(session_, fit, alike);
+  }
+
+ private:
+  Session session_{{}, std::vector<Recording>(8)};
+  std::size_t rows_ = 0;
+  std::mt19937_64 random_{1};
+  std::normal_distribution<double> normal_;
+};
+
+TEST_F(FrequencyProfile, AColourThatAnyCartLikeTheModelHasIsNoLine) {
+  EXPECT_TRUE(profile(white(), white()).flat());
+  EXPECT_FALSE(profile(coloured(), white()).flat());
+  EXPECT_TRUE(profile(coloured(), coloured()).flat());
+}
+
+TEST_F(FrequencyProfile, ALineStandsAboveThatColour) {
+  const Profile found = profile(coloured_with_line(12), coloured());
+  EXPECT_FALSE(found.flat());
+  EXPECT_NEAR(found.at[found.strongest()], 12, 0.2);
 }
 
 }  // namespace

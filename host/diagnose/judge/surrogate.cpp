@@ -8,6 +8,7 @@
 #include "host/evaluate/control_law.hpp"
 
 namespace cartwright {
+
 NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s) {
   const ObserverGain gain = observer_gains(fit.noise, rig.period_s(), damping_per_s).settled;
   const double reading = fit.error_rms_m / std::sqrt(gain.error_variance_ratio);
@@ -47,6 +48,13 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
     }
   }
   return out;
+}
+
+std::vector<double> errors_of_surrogate(const Session& session, const Fit& fit, FitOptions options,
+                                        unsigned threads) {
+  const NoiseSize noise = noise_size(fit, session.rig, options.damping_per_s);
+  options.threads = threads;
+  return counted_errors(surrogate(session, fit.model, noise, 1), fit.model, fit.noise, options);
 }
 
 }  // namespace cartwright

@@ -19,4 +19,8 @@ NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s);
 /// where it has none).
 Session surrogate(const Session& session, const Model& model, const NoiseSize& noise, std::uint64_t seed);
 
+/// The errors that a fit would have if the cart were exactly its model: a row for each of the fit's.
+std::vector<double> errors_of_surrogate(const Session& session, const Fit& fit, FitOptions options,
+                                        unsigned threads);
+
 }  // namespace cartwright

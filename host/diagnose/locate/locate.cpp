@@ -91,13 +91,9 @@ void compare_repeats(const Session& session, const Fit& fit, Location& location)
     first += rows;
   }
   double cross = 0, power = 0, count = 0;
-  const auto group = [&](std::size_t n) {
-    const Recording& r = session.recordings[n];
-    return r.repeat_of.empty() ? r.file : r.repeat_of;
-  };
   for (std::size_t a = 0; a < smooth.size(); ++a) {
     for (std::size_t b = a + 1; b < smooth.size(); ++b) {
-      if (group(a) != group(b)) continue;
+      if (session.recordings[a].original() != session.recordings[b].original()) continue;
       const std::size_t most = std::min(smooth[a].size(), smooth[b].size());
       for (std::size_t k = 0; k < most; ++k) {
         cross += smooth[a][k] * smooth[b][k];
@@ -131,7 +127,8 @@ std::vector<double> AxisMap::stretch() const {
   return best;
 }
 
-Location locate(const Session& session, const Fit& fit, const FitOptions& options, unsigned threads) {
+Location locate(const Session& session, const Fit& fit, const std::vector<double>& alike_m,
+                const FitOptions& options, unsigned threads) {
   Location location;
   const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
   ObserverOptions keep;
@@ -168,7 +165,7 @@ Location locate(const Session& session, const Fit& fit, const FitOptions& option
     map.share = power > 0 && !map.flat() ? std::min(1.0, explained / power) : 0;
   }
   location.over_way = spatial_frequency_profile(session, fit, options, threads);
-  location.over_frequency = frequency_profile(session, fit);
+  location.over_frequency = frequency_profile(session, fit, alike_m);
   location.over_lag = input_lag_profile(session, fit);
   compare_repeats(session, fit, location);
   return location;

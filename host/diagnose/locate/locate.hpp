@@ -35,6 +35,9 @@ struct Location {
   std::array<const Profile*, 3> profiles() const { return {&over_way, &over_frequency, &over_lag}; }
 };
 
-Location locate(const Session& session, const Fit& fit, const FitOptions& options, unsigned threads);
+/// `alike_m`: the errors that the fit would have if the cart were exactly its model, as for
+/// frequency_profile.
+Location locate(const Session& session, const Fit& fit, const std::vector<double>& alike_m,
+                const FitOptions& options, unsigned threads);
 
 }  // namespace cartwright

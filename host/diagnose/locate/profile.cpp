@@ -19,6 +19,56 @@ void set_bars(Profile& profile) {
   profile.bar = looks + kOnceIn20000;
 }
 
+constexpr double kLowest_hz = 1, kHighest_hz = 150, kFrequencyStep_hz = 0.1;
+constexpr double kColourOver_hz =
+    2.5;  // to either side: some 30 independent powers of a ten-second recording
+
+/// Power of all recordings together at some frequencies, in units of what white errors have there on average
+/// in one recording.
+std::vector<double> periodogram(const Session& session, const std::vector<double>& error_m,
+                                const std::vector<double>& at_hz) {
+  constexpr std::size_t kAbreast = 4;  // recursions that need not wait for one another
+  using Lanes = Eigen::Array<double, kAbreast, 1>;
+  const std::size_t skip = settling_rows(session.rig);
+  const Eigen::Map<const Eigen::VectorXd> all(error_m.data(), static_cast<Eigen::Index>(error_m.size()));
+  const double variance = all.squaredNorm() / static_cast<double>(error_m.size());
+  std::vector<double> powers;
+  for (std::size_t i = 0; i < at_hz.size(); i += kAbreast) {
+    const std::size_t lanes = std::min(kAbreast, at_hz.size() - i);
+    Lanes frequency_hz = Lanes::Constant(at_hz[i]), power = Lanes::Zero();
+    for (std::size_t lane = 0; lane < lanes; ++lane) frequency_hz[static_cast<int>(lane)] = at_hz[i + lane];
+    const Lanes c = 2 * (2 * std::numbers::pi * frequency_hz / session.rig.sample_rate_hz).cos();
+    std::size_t first = 0;
+    for (const Recording& r : session.recordings) {
+      if (r.size() <= skip) continue;
+      const std::size_t rows = r.size() - skip;
+      // Goertzel recursion; jitter of the ticks is far below a period of what is looked for.
+      Lanes s1 = Lanes::Zero(), s2 = Lanes::Zero();
+      for (std::size_t k = 0; k < rows; ++k) {
+        const Lanes s = error_m[first + k] + c * s1 - s2;
+        s2 = s1, s1 = s;
+      }
+      power += (s1 * s1 + s2 * s2 - c * s1 * s2) / (static_cast<double>(rows) * variance);
+      first += rows;
+    }
+    powers.insert(powers.end(), power.begin(), power.begin() + static_cast<std::ptrdiff_t>(lanes));
+  }
+  return powers;
+}
+
+/// Means over a few hertz around each frequency.
+std::vector<double> smoothed(const std::vector<double>& power) {
+  const auto reach = static_cast<std::size_t>(std::lround(kColourOver_hz / kFrequencyStep_hz));
+  std::vector<double> mean;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    const std::size_t begin = i > reach ? i - reach : 0, end = std::min(i + reach + 1, power.size());
+    mean.push_back(std::accumulate(power.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   power.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
+                   static_cast<double>(end - begin));
+  }
+  return mean;
+}
+
 }  // namespace
 
 std::size_t Profile::strongest() const {
@@ -62,42 +112,22 @@ Profile spatial_frequency_profile(const Session& session, const Fit& fit, const 
   return profile;
 }
 
-Profile frequency_profile(const Session& session, const Fit& fit) {
-  constexpr double kLowest_hz = 1, kHighest_hz = 150, kStep_hz = 0.1;
-  const std::size_t skip = settling_rows(session.rig);
-  const double highest = std::min(kHighest_hz, 0.4 * session.rig.sample_rate_hz);
-  const double variance = fit.error_rms_m * fit.error_rms_m;
+Profile frequency_profile(const Session& session, const Fit& fit, const std::vector<double>& alike_m) {
   Profile profile;
   profile.axis = "frequency_hz";
+  const double highest = std::min(kHighest_hz, 0.4 * session.rig.sample_rate_hz);
+  for (double f = kLowest_hz; f < highest; f += kFrequencyStep_hz) profile.at.push_back(f);
+  const std::vector<double> power = periodogram(session, fit.error_m, profile.at);
+  const std::vector<double> colour = smoothed(periodogram(session, alike_m, profile.at));
+  const auto recordings = static_cast<double>(
+      std::count_if(session.recordings.begin(), session.recordings.end(),
+                    [&](const Recording& r) { return r.size() > settling_rows(session.rig); }));
   double most_power = 0;
-  constexpr int kAbreast = 4;  // recursions that need not wait for one another
-  using Lanes = Eigen::Array<double, kAbreast, 1>;
-  for (double f = kLowest_hz; f < highest;) {
-    Lanes frequency_hz, power = Lanes::Zero();
-    for (double& lane : frequency_hz) lane = f, f += kStep_hz;
-    const Lanes c = 2 * (2 * std::numbers::pi * frequency_hz / session.rig.sample_rate_hz).cos();
-    double recordings = 0;
-    std::size_t first = 0;
-    for (const Recording& r : session.recordings) {
-      if (r.size() <= skip) continue;
-      const std::size_t rows = r.size() - skip;
-      // Goertzel recursion; jitter of the ticks is far below a period of what is looked for.
-      Lanes s1 = Lanes::Zero(), s2 = Lanes::Zero();
-      for (std::size_t k = 0; k < rows; ++k) {
-        const Lanes s = fit.error_m[first + k] + c * s1 - s2;
-        s2 = s1, s1 = s;
-      }
-      power += (s1 * s1 + s2 * s2 - c * s1 * s2) / (static_cast<double>(rows) * variance);
-      ++recordings;
-      first += rows;
-    }
-    for (int lane = 0; lane < kAbreast && frequency_hz[lane] < highest; ++lane) {
-      const double here = power[lane];
-      most_power = std::max(most_power, here);
-      profile.at.push_back(frequency_hz[lane]);
-      profile.value.push_back(here > recordings ? here - recordings - recordings * std::log(here / recordings)
-                                                : 0);
-    }
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    most_power = std::max(most_power, power[i]);
+    const double here = power[i] / std::max(1.0, colour[i] / recordings);
+    profile.value.push_back(here > recordings ? here - recordings - recordings * std::log(here / recordings)
+                                              : 0);
   }
   set_bars(profile);
   profile.share = std::min(1.0, 2 * most_power / static_cast<double>(fit.error_m.size()));
