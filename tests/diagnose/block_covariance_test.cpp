@@ -34,7 +34,7 @@ class LineInBlocks {
       const auto here = rows.middleRows(b * kRows, kRows);
       blocks.push_back({here.transpose() * errors.segment(b * kRows, kRows), here.transpose() * here});
     }
-    return found[1] / std::sqrt(block_covariance(blocks)(1, 1));
+    return found[1] / std::sqrt(block_covariance(blocks, 0)(1, 1));
   }
 
  private:

@@ -18,11 +18,9 @@ using test::IndependentCart;
 class Profiles : public testing::Test {
  protected:
   /// Looks at the errors of the nominal terms, refitted to the battery of a cart.
-  void look_at(const IndependentCart& cart) { look_at(battery(cart)); }
-  void look_at(const Session& session) {
-    session_ = session;
-    const Model start =
-        Model(1.87).set(Parameter::viscous_coefficient, 5.2).set(Parameter::coulomb_level, 0.41);
+  void look_at(const IndependentCart& cart) {
+    session_ = battery(cart);
+    const Model start = test::nominal();
     options_.damping_per_s = linear_damping(start);
     const NoiseModel noise = search_noise(session_, start, options_);
     fit_ = fit(session_, start, noise, free_parameters(start, facts_of(session_)), options_);

@@ -19,9 +19,9 @@ struct Block {
 /// the jackknife over blocks: it holds whatever the errors within a block have in common, and a block that
 /// bent the fit towards itself counts as if it had not. A block is taken to hold half of what is known about
 /// any number at most: what one block alone knows of, no other can judge.
-Eigen::MatrixXd block_covariance(const std::vector<Block>& blocks);
-
-/// The same per variance of the errors if they were white: H^-1.
-Eigen::MatrixXd inverse_information(const std::vector<Block>& blocks);
+///
+/// Few blocks know of a number that acts for a moment only, and their scores are too small once it is fitted:
+/// no variance is taken to be less than errors of `white_variance`, if they were white, would leave.
+Eigen::MatrixXd block_covariance(const std::vector<Block>& blocks, double white_variance);
 
 }  // namespace cartwright

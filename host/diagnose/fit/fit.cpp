@@ -194,8 +194,7 @@ class Fitter {
         normal_equations(columns.middleRows(first, n), std::span(e).subspan(row, end - begin),
                          here.information, here.score);
         double sum = 0;
-        for (const std::size_t last = row + end - begin; row < last; ++row)
-          sum += loss(e[row], options_.outlier_m);
+        for (std::size_t k = begin; k < end; ++k, ++row) sum += loss(e[row], options_.outlier_m);
         result.block_loss_m2.push_back(sum);
         const auto [block, is_new] = by_time.try_emplace({recording.original(), begin}, here);
         if (is_new) continue;
@@ -205,17 +204,7 @@ class Fitter {
     }
     std::vector<Block> blocks;
     for (auto& [time, block] : by_time) blocks.push_back(std::move(block));
-    result.covariance = block_covariance(blocks);
-    // Few blocks know of a number that acts for a moment only, and their scores are too small once it is
-    // fitted: no variance is taken to be less than white noise would leave.
-    const double variance = result.error_rms_m * result.error_rms_m;
-    const Eigen::MatrixXd inverse = inverse_information(blocks);
-    Eigen::VectorXd widen(columns.cols());
-    for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-      widen[i] =
-          std::sqrt(std::max(1.0, variance * inverse(i, i) / std::max(result.covariance(i, i), 1e-300)));
-    }
-    result.covariance = widen.asDiagonal() * result.covariance * widen.asDiagonal();
+    result.covariance = block_covariance(blocks, result.error_rms_m * result.error_rms_m);
     result.jacobian = columns;
     result.error_m = std::move(at.errors);
     return result;

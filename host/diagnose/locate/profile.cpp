@@ -20,8 +20,8 @@ void set_bars(Profile& profile) {
 }
 
 constexpr double kLowest_hz = 1, kHighest_hz = 150, kFrequencyStep_hz = 0.1;
-constexpr double kColourOver_hz =
-    2.5;  // to either side: some 30 independent powers of a ten-second recording
+/// To either side: some 30 independent powers of a recording of seven seconds.
+constexpr double kColourOver_hz = 2.5;
 
 /// Power of all recordings together at some frequencies, in units of what white errors have there on average
 /// in one recording.

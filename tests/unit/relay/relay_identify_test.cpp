@@ -8,6 +8,7 @@
 
 #include "common/model/plant.hpp"
 #include "host/reproduce/relay_plant.hpp"
+#include "tests/unit/relay/covers.hpp"
 
 namespace cartwright {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using reproduce::PaperPlant;
 using reproduce::relay_session;
 using reproduce::rig_with;
+using test::covers;
 using testing::HasSubstr;
 
 Estimate named(const std::vector<RelayReport::Value>& values, const std::string& name) {
@@ -23,10 +25,6 @@ Estimate named(const std::vector<RelayReport::Value>& values, const std::string&
   }
   ADD_FAILURE() << name << " is missing";
   return {};
-}
-
-bool holds(const Estimate& estimate, double truth) {
-  return estimate.low <= truth && truth <= estimate.high;
 }
 
 constexpr double kSum = 1 / PaperPlant::kKp + PaperPlant::kF2;
@@ -87,10 +85,10 @@ TEST(RelayIdentify, IntervalsHoldTheTruthUnderAColouredDisturbance) {
   for (int i = 0; i < kDraws; ++i) {
     const auto report = identify_from_relay(disturbed(cart, clean, 0.03, random));
     ASSERT_TRUE(report) << report.error().message;
-    inside[0] += holds(named(report->parameters, "voltage_gain_m_per_s2_V"), 2);
-    inside[1] += holds(named(report->parameters, "viscous_friction.coefficient_per_s"), 5);
-    inside[2] += holds(named(report->parameters, "coulomb_friction.level_m_per_s2"), 0.4);
-    inside[3] += holds(named(report->parameters, "constant_force.acceleration_m_per_s2"), 0);
+    inside[0] += covers(named(report->parameters, "voltage_gain_m_per_s2_V"), 2);
+    inside[1] += covers(named(report->parameters, "viscous_friction.coefficient_per_s"), 5);
+    inside[2] += covers(named(report->parameters, "coulomb_friction.level_m_per_s2"), 0.4);
+    inside[3] += covers(named(report->parameters, "constant_force.acceleration_m_per_s2"), 0);
     EXPECT_NEAR(named(report->parameters, "voltage_gain_m_per_s2_V").value, 2, 0.02);
   }
   // 40 draws of a 95 % interval: fewer than 34 inside has a probability below 1 %.
@@ -109,7 +107,7 @@ TEST(RelayIdentify, GivesASumWhereOneRecordingCannotTellTheFrictionsApart) {
   ASSERT_THAT(sum.names,
               testing::ElementsAre("viscous_friction.coefficient_per_s", "coulomb_friction.level_m_per_s2"));
   const std::string factor = sum.expression.substr(sum.expression.find("+ ") + 2);
-  EXPECT_TRUE(holds(sum.estimate, 5 + std::stod(factor) * 0.4)) << sum.expression;
+  EXPECT_TRUE(covers(sum.estimate, 5 + std::stod(factor) * 0.4)) << sum.expression;
 }
 
 TEST(RelayIdentify, AlwaysSaysThatBackEmfAndViscousFrictionAreOneTerm) {
@@ -118,7 +116,7 @@ TEST(RelayIdentify, AlwaysSaysThatBackEmfAndViscousFrictionAreOneTerm) {
   ASSERT_TRUE(report) << report.error().message;
   ASSERT_EQ(report->not_separable.size(), 1U);
   EXPECT_EQ(report->not_separable[0].expression, "1/Kp + f2");
-  EXPECT_TRUE(holds(report->not_separable[0].estimate, kSum) ||
+  EXPECT_TRUE(covers(report->not_separable[0].estimate, kSum) ||
               std::abs(report->not_separable[0].estimate.value - kSum) < 1e-9);
 }
 

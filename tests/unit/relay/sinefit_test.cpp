@@ -6,19 +6,17 @@
 #include <array>
 #include <string>
 
+#include "tests/unit/relay/covers.hpp"
 #include "tests/unit/relay/sine_signals.hpp"
 
 namespace cartwright {
 namespace {
 
 using test::angle_between;
+using test::covers;
 using test::SineSignal;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 const int kDraws = test::draws(4000);
-
-bool covers(const Estimate& estimate, double truth) {
-  return estimate.low <= truth && truth <= estimate.high;
-}
 
 bool phase_covered(const Estimate& phase, double truth_rad) {
   return !phase.has_interval() || std::abs(angle_between(phase.value, truth_rad)) <= phase.high - phase.value;
