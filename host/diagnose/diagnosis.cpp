@@ -118,9 +118,9 @@ class Diagnostician {
                   fit_options_, options_.threads);
   }
 
-  /// A push that happened only in the recording kept out would never be found without it. A gap's impacts
-  /// look like pushes where they are misjudged: beside one it is a push only if it stands out from what the
-  /// recordings that were used show of them.
+  /// A push that happened only in the recording kept out would never be found without it. What the model
+  /// misses everywhere looks like pushes too: it is a push only if it stands out from what the recordings that
+  /// were used show.
   bool shows_a_push(const Session& used, const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     if (best.has(Term::external_disturbance)) return false;
@@ -132,8 +132,7 @@ class Diagnostician {
     };
     const Session out = put_right(only(session_, held));
     const double here = most_promised(out, fit(out, best.fit.model, best.fit.noise, {}, as_it_is));
-    if (here <= 2 * kLeastGain) return false;
-    return !best.has(Term::backlash) ||
+    return here > 2 * kLeastGain &&
            here > kStandsOut * most_promised(without_jumps(used, best.jumps), best.fit);
   }
 

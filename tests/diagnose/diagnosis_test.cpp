@@ -180,6 +180,16 @@ TEST(Diagnosis, FindsAPushInTheRecordingItWouldHaveKeptOut) {
   EXPECT_TRUE(d.held_out_recordings.empty());
 }
 
+TEST(Diagnosis, KeepsARecordingOutWhereWhatTheModelMissesLooksLikeAPushEverywhere) {
+  IndependentCart cart;
+  cart.push = [](double, double y, double) {  // bumpers at both ends
+    return -3000 * std::copysign(std::max(0.0, std::abs(y) - 0.06), y);
+  };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  EXPECT_EQ(name(d.verdict), "unexplained");
+  EXPECT_EQ(d.held_out_recordings.size(), 1u);
+}
+
 TEST(Diagnosis, NamesCoggingWithEachOfItsPeriods) {
   IndependentCart cart;
   cart.push = [](double, double y, double) {
