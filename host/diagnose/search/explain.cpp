@@ -7,6 +7,7 @@
 
 #include "host/diagnose/fit/basis.hpp"
 #include "host/diagnose/search/evolve_gap.hpp"
+#include "host/diagnose/search/lost_counts.hpp"
 #include "host/diagnose/search/plausible.hpp"
 #include "host/diagnose/search/promises.hpp"
 #include "host/diagnose/search/promises_beside_gap.hpp"

@@ -45,9 +45,6 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
 /// Speed about a row, from readings 10 ms apart (one tick at least).
 double velocity_at(const Recording& recording, std::size_t row);
 
-/// Whether steps of the reading are what lost counts would be: at least three, nearly all against the motion.
-bool like_lost_counts(const Session& session, const std::vector<ReadingJump>& jumps);
-
 /// The session with its readings put back where they would be had no counts been lost.
 Session without_jumps(Session session, const std::vector<ReadingJump>& jumps);
 

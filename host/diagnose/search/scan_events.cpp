@@ -163,18 +163,6 @@ double velocity_at(const Recording& r, std::size_t row) {
   return b > a ? (r.y_m[b] - r.y_m[a]) / (r.t_s[b] - r.t_s[a]) : 0;
 }
 
-bool like_lost_counts(const Session& session, const std::vector<ReadingJump>& jumps) {
-  constexpr std::size_t kLeastJumps = 3;
-  constexpr double kMostWithTheMotion = 0.2;
-  if (jumps.size() < kLeastJumps) return false;
-  const Session repaired = without_jumps(session, jumps);
-  double with = 0;
-  for (const ReadingJump& jump : jumps) {
-    if (velocity_at(repaired.recordings[jump.recording], jump.row) * jump.step_m >= 0) ++with;
-  }
-  return with <= kMostWithTheMotion * static_cast<double>(jumps.size());
-}
-
 Session without_jumps(Session session, const std::vector<ReadingJump>& jumps) {
   for (const ReadingJump& jump : jumps) {
     std::vector<double>& y = session.recordings[jump.recording].y_m;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "host/diagnose/fit/basis.hpp"
+#include "host/diagnose/search/lost_counts.hpp"
 #include "host/diagnose/search/promises.hpp"
 #include "host/diagnose/search/worth_fitting.hpp"
 
