@@ -133,6 +133,18 @@ TEST_P(FindsNothingWhereThereIsNothing, OnCoarseEncodersAtLowRates) {
   EXPECT_TRUE(d.effects.empty());
 }
 
+/// A simulation's readings are rounded and nothing else: where the cart stands all are wrong by the same.
+TEST_P(FindsNothingWhereThereIsNothing, OnReadingsThatAreOnlyRounded) {
+  IndependentCart cart;
+  cart.seed = GetParam();
+  cart.noise = GetParam() % 3 == 0 ? 0.3 : 0;
+  cart.coulomb_m_per_s2 = 0.15 + 0.1 * static_cast<double>(GetParam());
+  cart.start_m = 0.4 * cart.count_m;
+  const Diagnosis d = diagnose(battery(cart), nominal(1.9, 5, cart.coulomb_m_per_s2));
+  EXPECT_EQ(name(d.verdict), "no_mismatch");
+  EXPECT_TRUE(d.effects.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, FindsNothingWhereThereIsNothing, testing::Range<std::uint64_t>(1, 7));
 
 TEST(Diagnosis, ValuesThatAreOffAreNoMissingPhysics) {

@@ -48,7 +48,8 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
   double y = cart.start_m, v = 0, disturbance = 0, filtered = 0, previous = 0, integral = 0;
   std::vector<double> sent;
   for (std::size_t k = 0; k < r.size(); ++k) {
-    const double read = y + cart.encoder_error_m(y) + kReadingNoise_counts * cart.count_m * normal(random);
+    const double read =
+        y + cart.encoder_error_m(y) + cart.noise * kReadingNoise_counts * cart.count_m * normal(random);
     const double measured = cart.count_m * std::round(read / cart.count_m);
     const double e = r.r_m[k] - measured;
     double u = r.added_V(k);
@@ -72,7 +73,8 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
     const int steps = static_cast<int>(std::round((r.t_s[k + 1] - r.t_s[k]) / kEulerStep_s));
     const double h = (r.t_s[k + 1] - r.t_s[k]) / steps;
     const double fade = std::exp(-rig.period_s() / kDisturbanceTime_s);
-    disturbance = fade * disturbance + kDisturbance_m_per_s2 * std::sqrt(1 - fade * fade) * normal(random);
+    disturbance =
+        fade * disturbance + cart.noise * kDisturbance_m_per_s2 * std::sqrt(1 - fade * fade) * normal(random);
     for (int i = 0; i < steps; ++i) {
       const double t = r.t_s[k] + i * h;
       const double level = cart.coulomb_m_per_s2 + cart.extra_level(t, y, v, held);

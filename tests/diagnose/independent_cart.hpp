@@ -22,6 +22,7 @@ struct IndependentCart {
   std::function<double(double y_m)> encoder_error_m = [](double) { return 0.0; };
   int delay_ticks = 0;
   double sample_rate_hz = 1000, count_m = 2.275e-5;
+  double noise = 1;    ///< share of the reading noise and the disturbance; without, readings are only rounded
   double start_m = 0;  ///< between two counts it is off for the diagnosis
   std::uint64_t seed = 1;
 };

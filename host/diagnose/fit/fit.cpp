@@ -33,13 +33,6 @@ double loss_slope_half(double error, double outlier) {
   return outlier <= 0 ? error : std::clamp(error, -outlier, outlier);
 }
 
-NoiseModel bounded(NoiseModel noise) {
-  noise.correlation_time_s = std::clamp(noise.correlation_time_s, NoiseModel::kShortestCorrelation_s,
-                                        NoiseModel::kLongestCorrelation_s);
-  noise.disturbance_per_reading_per_s2 = std::clamp(noise.disturbance_per_reading_per_s2, 1e1, 1e8);
-  return noise;
-}
-
 class Fitter {
  public:
   Fitter(const Session& session, const std::vector<FreeParameter>& free, const FitOptions& options)
@@ -51,7 +44,7 @@ class Fitter {
   }
 
   Fit run(const Model& start, const NoiseModel& noise) const {
-    Point at{start, bounded(noise), {}, 0, {}};
+    Point at{start, bounded(noise, session_.rig), {}, 0, {}};
     evaluate(at);
     bool converged = false;
     for (int round = 0; round < options_.most_rounds && !converged; ++round) {
@@ -72,7 +65,7 @@ class Fitter {
         Point there{at.model, at.noise, {}, 0, {}};
         there.noise.disturbance_per_reading_per_s2 *= std::exp(step * direction[0]);
         there.noise.correlation_time_s *= std::exp(2 * step * direction[1]);
-        there.noise = bounded(there.noise);
+        there.noise = bounded(there.noise, session_.rig);
         evaluate(there);
         if (there.value > at.value + 0.25 * options_.tolerance) {
           at = std::move(there);

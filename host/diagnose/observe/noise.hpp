@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "common/config/rig.hpp"
+
 namespace cartwright {
 
 /// What the model does not determine: a disturbance acceleration d that wanders with a correlation time, and
@@ -14,6 +16,12 @@ struct NoiseModel {
   static constexpr double kLongestCorrelation_s = 0.03;
   static constexpr double kShortestCorrelation_s = 0.0002;
 };
+
+/// The nearest noise that an observer may be made for. Where readings are rounded the disturbance is at least
+/// so large that the observer averages over no more than about ten of them: a cart that stands or creeps is
+/// read with the same rounding error again and again, which is no white noise, and what a longer memory makes
+/// of it looks like physics. From the gain of a cart that white noise pushes, K^4 = 8 r^2 tau T^3.
+NoiseModel bounded(NoiseModel noise, const Rig& rig);
 
 /// Kalman gains of the linear cart  y' = v, v' = -c v + d, d' = -d/tau + white  read at a fixed period.
 struct ObserverGain {
