@@ -11,7 +11,11 @@ namespace cartwright {
 struct Basis {
   Eigen::MatrixXd q;       ///< orthonormal columns that span the fit's Jacobian
   Eigen::VectorXd e;       ///< counted errors, outliers clipped, less what `q` explains [m]
-  double variance_m2 = 0;  ///< mean square of `e`
+  double variance_m2 = 0;  ///< mean square of `e`, no less than rounding leaves
+  double least_mean_square_m2 = 0;
+
+  /// Log-likelihood that is gained where the squares of `e` add up to no more than so much.
+  double gain(double left_m2) const;
 
   /// Takes out of vectors or columns what the fit's own numbers explain.
   template <typename Columns>

@@ -17,7 +17,7 @@ namespace {
 struct Point {
   Model model;
   NoiseModel noise;
-  std::vector<double> errors;
+  CountedErrors errors;
   double value = 0;         // log-likelihood
   Eigen::MatrixXd columns;  // de/dp here; empty until asked for
 };
@@ -27,6 +27,12 @@ constexpr double kMostLogStep = 1.0;  // of a logarithmic parameter in one itera
 double loss(double error, double outlier) {
   const double size = std::abs(error);
   return outlier <= 0 || size <= outlier ? error * error : outlier * (2 * size - outlier);
+}
+
+double sum_of(const std::vector<double>& errors, double outlier) {
+  double sum = 0;
+  for (const double e : errors) sum += loss(e, outlier);
+  return sum;
 }
 
 double loss_slope_half(double error, double outlier) {
@@ -78,11 +84,12 @@ class Fitter {
 
  private:
   const Eigen::MatrixXd& jacobian(Point& at) const {
-    const auto rows = static_cast<Eigen::Index>(at.errors.size());
+    const std::vector<double>& errors = at.errors.error_m;
+    const auto rows = static_cast<Eigen::Index>(errors.size());
     if (at.columns.rows() == rows) return at.columns;
     Eigen::MatrixXd& columns = at.columns;
     columns = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(free_.size()));
-    const Eigen::Map<const Eigen::VectorXd> base(at.errors.data(), rows);
+    const Eigen::Map<const Eigen::VectorXd> base(errors.data(), rows);
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const FreeParameter& p = free_[i];
       const double here = at.model[p.id];
@@ -90,7 +97,7 @@ class Fitter {
       if (here + step > p.upper) step = -step;
       Model there = at.model;
       there.set(p.id, here + step);
-      const std::vector<double> e = counted_errors(session_, there, at.noise, options_);
+      const std::vector<double> e = counted_errors(session_, there, at.noise, options_).error_m;
       columns.col(static_cast<Eigen::Index>(i)) =
           (Eigen::Map<const Eigen::VectorXd>(e.data(), rows) - base) / step;
     }
@@ -108,7 +115,7 @@ class Fitter {
       }
       Eigen::MatrixXd h;
       Eigen::VectorXd g;
-      normal_equations(columns, at.errors, h, g);
+      normal_equations(columns, at.errors.error_m, h, g);
       // A parameter at its bound that the gradient pushes outward stays out of this step.
       for (Eigen::Index i = 0; i < n; ++i) {
         const FreeParameter& p = free_[static_cast<std::size_t>(i)];
@@ -163,13 +170,15 @@ class Fitter {
 
   Fit finish(Point at, bool converged) const {
     Fit result;
-    const std::vector<double>& e = at.errors;
+    const std::vector<double>& e = at.errors.error_m;
     result.model = at.model;
     result.noise = at.noise;
     result.free = free_;
     result.log_likelihood = at.value;
     result.rows = e.size();
-    result.error_rms_m = std::exp(-at.value / static_cast<double>(e.size()));
+    result.least_mean_square_m2 = at.errors.least_mean_square_m2;
+    const double mean_square = sum_of(e, options_.outlier_m) / static_cast<double>(e.size());
+    result.error_rms_m = std::sqrt(std::max(mean_square, result.least_mean_square_m2));
     result.converged = converged;
     const Eigen::MatrixXd columns =
         options_.covariance ? jacobian(at) : Eigen::MatrixXd(static_cast<Eigen::Index>(e.size()), 0);
@@ -199,7 +208,7 @@ class Fitter {
     for (auto& [time, block] : by_time) blocks.push_back(std::move(block));
     result.covariance = block_covariance(blocks, result.error_rms_m * result.error_rms_m);
     result.jacobian = columns;
-    result.error_m = std::move(at.errors);
+    result.error_m = std::move(at.errors.error_m);
     return result;
   }
 
@@ -240,15 +249,18 @@ PairedDifference paired_difference(const Fit& better, const Fit& worse) {
   return difference;
 }
 
-double log_likelihood(const std::vector<double>& errors, double outlier) {
-  double sum = 0;
-  for (const double e : errors) sum += loss(e, outlier);
-  const double n = static_cast<double>(errors.size());
-  return -0.5 * n * std::log(std::max(sum / n, 1e-300));
+double log_likelihood(double sum, double rows, double least_mean_square) {
+  const double v = std::max({sum / rows, least_mean_square, 1e-300});
+  return -0.5 * rows * (std::log(v) + sum / (rows * v) - 1);
 }
 
-std::vector<double> counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
-                                   const FitOptions& options) {
+double log_likelihood(const CountedErrors& errors, double outlier) {
+  return log_likelihood(sum_of(errors.error_m, outlier), static_cast<double>(errors.error_m.size()),
+                        errors.least_mean_square_m2);
+}
+
+CountedErrors counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
+                             const FitOptions& options) {
   std::vector<double> all;
   double log_spread = 0;
   std::size_t rows = 0;
@@ -272,12 +284,15 @@ std::vector<double> counted_errors(const Session& session, const Model& model, c
       }
     }
   }
+  double variance_ratio = gains.settled.error_variance_ratio;
   // Errors of uneven spread count by it; times its geometric mean, so that log L counts sum(log spread) too.
   if (log_spread != 0) {
     const double mean = std::exp(log_spread / static_cast<double>(all.size()));
     for (double& e : all) e *= mean;
+    variance_ratio = mean * mean;
   }
-  return all;
+  const double count = session.rig.encoder_resolution_m;
+  return {std::move(all), variance_ratio * count * count / 12};
 }
 
 NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options) {

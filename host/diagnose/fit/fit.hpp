@@ -32,16 +32,19 @@ struct FitOptions {
 
 /// A model fitted by the likelihood of its one-step prediction errors,
 ///
-///     log L = -N/2 log(1/N sum rho(e(k))),
+///     log L = -N/2 (log v + S / (N v) - 1),   S = sum rho(e(k)),   v = max(S / N, v_min),
 ///
-/// with the noise size concentrated out. `covariance` is that of block_covariance.hpp over blocks of time,
+/// with the noise size v concentrated out, but never below what rounding the readings leaves: a cart that
+/// stands is read without any error, and readings that are trusted for it make the rest of the recording
+/// sure of anything. `covariance` is that of block_covariance.hpp over blocks of time,
 /// repeats taken together: it stays honest when errors are coloured or the encoder's steps make them uneven.
 struct Fit {
   Model model;
   NoiseModel noise;
   std::vector<FreeParameter> free;
   double log_likelihood = 0;
-  double error_rms_m = 0;
+  double error_rms_m = 0;             ///< sqrt(v)
+  double least_mean_square_m2 = 0;    ///< v_min
   std::size_t rows = 0;               ///< errors counted
   std::vector<double> error_m;        ///< all counted errors, recordings in order
   std::vector<double> block_loss_m2;  ///< sum of rho(e) per block, in session order
@@ -74,10 +77,19 @@ Fit fit(const Session& session, const Model& start, const NoiseModel& noise,
 /// Finds the noise for a fixed model from a coarse grid: the start of the first fit of a session.
 NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options = {});
 
-/// All counted errors of a session, recordings in order.
-std::vector<double> counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
-                                   const FitOptions& options = {});
+struct CountedErrors {
+  std::vector<double> error_m;  ///< recordings in order
+  double least_mean_square_m2 =
+      0;  ///< what rounding alone makes of it, q^2 / 12 times the error variance ratio
+};
 
-double log_likelihood(const std::vector<double>& errors_m, double outlier_m);
+/// All counted errors of a session.
+CountedErrors counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
+                             const FitOptions& options = {});
+
+double log_likelihood(const CountedErrors& errors, double outlier_m);
+
+/// The same of so many rows whose rho(e) add up to `sum_m2`.
+double log_likelihood(double sum_m2, double rows, double least_mean_square_m2);
 
 }  // namespace cartwright

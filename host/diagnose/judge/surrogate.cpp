@@ -54,7 +54,7 @@ std::vector<double> errors_of_surrogate(const Session& session, const Fit& fit, 
                                         unsigned threads) {
   const NoiseSize noise = noise_size(fit, session.rig, options.damping_per_s);
   options.threads = threads;
-  return counted_errors(surrogate(session, fit.model, noise, 1), fit.model, fit.noise, options);
+  return counted_errors(surrogate(session, fit.model, noise, 1), fit.model, fit.noise, options).error_m;
 }
 
 }  // namespace cartwright

@@ -56,7 +56,7 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
   const double explained = g.dot(h.ldlt().solve(g));
   const double ee = basis.e.squaredNorm();
-  map.gain = -0.5 * static_cast<double>(basis.e.size()) * std::log(std::max(1 - explained / ee, 1e-9));
+  map.gain = basis.gain(std::max(ee - explained, 1e-9 * ee));
   constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
   // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.

@@ -85,12 +85,12 @@ class WaveColumns {
 };
 
 /// The best multiples of two columns that have been projected out of the basis.
-Wave wave_of(const Eigen::Ref<const Eigen::MatrixXd>& pair, const Eigen::VectorXd& e, double ee) {
+Wave wave_of(const Eigen::Ref<const Eigen::MatrixXd>& pair, const Basis& basis, double ee) {
   const Eigen::Matrix2d h = pair.transpose() * pair;
-  const Eigen::Vector2d g = pair.transpose() * e;
+  const Eigen::Vector2d g = pair.transpose() * basis.e;
   const Eigen::Vector2d x = h.ldlt().solve(g);
   const double left = std::max(ee - x.dot(g), 1e-12 * ee);
-  return {0.5 * static_cast<double>(e.size()) * std::log(ee / left), x[0], x[1]};
+  return {basis.gain(left), x[0], x[1]};
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ PositionSpectrum position_spectrum(const Session& session, const Fit& base, cons
         influence.fill<2>(wave, columns);
       }
       basis.project_out(columns);
-      spectrum.push[i] = wave_of(columns.leftCols(2), basis.e, ee);
-      if (with_reading) spectrum.reading[i] = wave_of(columns.rightCols(2), basis.e, ee);
+      spectrum.push[i] = wave_of(columns.leftCols(2), basis, ee);
+      if (with_reading) spectrum.reading[i] = wave_of(columns.rightCols(2), basis, ee);
     }
   });
   return spectrum;

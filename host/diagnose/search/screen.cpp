@@ -32,7 +32,6 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
   const Basis basis = basis_of(base, options.outlier_m);
   const Eigen::VectorXd& e = basis.e;
   const auto rows = e.size();
-  const double ee = e.squaredNorm();
 
   std::vector<Promise> promises;
   std::vector<const Candidate*> owner;
@@ -45,7 +44,7 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
   }
   parallel_for(promises.size(), threads, [&](std::size_t i) {
     Promise& promise = promises[i];
-    const std::vector<double> errors = counted_errors(session, promise.start, base.noise, options);
+    const std::vector<double> errors = counted_errors(session, promise.start, base.noise, options).error_m;
     Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(errors.data(), rows) -
                              Eigen::Map<const Eigen::VectorXd>(base.error_m.data(), rows);
     if (options.outlier_m > 0) {
@@ -58,7 +57,7 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
     multiple = std::clamp(multiple, has_sign(promise.term) ? -1e9 : 0.0,
                           has_sign(promise.term) ? 1e9 : kMostMultiple);
     const double left = (e + multiple * column).squaredNorm();
-    promise.log_likelihood_gain = 0.5 * static_cast<double>(rows) * std::log(ee / left);
+    promise.log_likelihood_gain = basis.gain(left);
   });
   std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
     return a.log_likelihood_gain > b.log_likelihood_gain;
