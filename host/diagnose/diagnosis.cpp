@@ -76,21 +76,20 @@ class Diagnostician {
     search.threads = options_.threads;
     search.held = options_.held;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
-    result_.search = explain(used, nominal_, search);
+    search_for_physics(used, search);
     if (!held.empty() && shows_a_push(used, held)) {
       result_.remarks.push_back(
           fmt::format("{} holds something of its own, so it was used and nothing held out.",
                       session_.recordings[held.front()].file));
       held.clear();
       used = session_;
-      result_.search = explain(used, nominal_, search);
+      search_for_physics(used, search);
     }
     for (const std::size_t n : held) result_.held_out_recordings.push_back(session_.recordings[n].file);
     const Search& found = result_.search;
 
     report("locating what is left", 0.82);
     const Session repaired = without_jumps(used, found.best.jumps);
-    result_.before = located(used, found.refitted.fit);
     result_.after = found.contests.empty() ? result_.before : located(repaired, found.best.fit);
     result_.model = found.best.fit.model;
     result_.refitted = found.refitted.fit.model;
@@ -109,6 +108,17 @@ class Diagnostician {
   }
 
  private:
+  /// Where a cart that is exactly the model shows more than chance, an effect must gain as much more.
+  void search_for_physics(const Session& used, SearchOptions search) {
+    result_.search = explain(used, nominal_, search);
+    result_.before = located(used, result_.search.refitted.fit);
+    search.least_gain *= result_.before.beyond_chance;
+    const auto gains_too_little = [&](const Contest& one) { return one.gain < search.least_gain; };
+    const std::vector<Contest>& contests = result_.search.contests;
+    if (std::any_of(contests.begin(), contests.end(), gains_too_little))
+      result_.search = explain(used, nominal_, search);
+  }
+
   void report(std::string_view what, double share) const {
     if (options_.progress) options_.progress(what, share);
   }
@@ -119,8 +129,8 @@ class Diagnostician {
   }
 
   /// A push that happened only in the recording kept out would never be found without it. What the model
-  /// misses everywhere looks like pushes too: it is a push only if it stands out from what the recordings that
-  /// were used show.
+  /// misses everywhere looks like pushes too: it is a push only if it stands out from what the recordings
+  /// that were used show.
   bool shows_a_push(const Session& used, const std::vector<std::size_t>& held) const {
     const Explanation& best = result_.search.best;
     if (best.has(Term::external_disturbance)) return false;

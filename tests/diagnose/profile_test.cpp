@@ -24,7 +24,7 @@ class Profiles : public testing::Test {
     options_.damping_per_s = linear_damping(start);
     const NoiseModel noise = search_noise(session_, start, options_);
     fit_ = fit(session_, start, noise, free_parameters(start, facts_of(session_)), options_);
-    options_.outlier_m = 6 * robust_size(fit_.error_m);
+    options_.outlier_m = 6 * robust_size(fit_);
   }
 
   Profile over_way() const { return spatial_frequency_profile(session_, fit_, options_, 2); }

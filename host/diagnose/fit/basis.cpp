@@ -24,13 +24,13 @@ double Basis::gain(double left_m2) const {
          log_likelihood(e.squaredNorm(), rows, least_mean_square_m2);
 }
 
-double robust_size(const std::vector<double>& errors) {
+double robust_size(const Fit& fit) {
   std::vector<double> sizes;
-  sizes.reserve(errors.size());
-  for (const double e : errors) sizes.push_back(std::abs(e));
+  sizes.reserve(fit.error_m.size());
+  for (const double e : fit.error_m) sizes.push_back(std::abs(e));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;
+  return std::max(1.4826 * *middle, std::sqrt(fit.least_mean_square_m2));
 }
 
 }  // namespace cartwright

@@ -21,7 +21,7 @@ std::string further_push(const Session& session, const Search& search, FitOption
   });
   if (named == search.contests.end()) return "";
   const Fit& fit = search.best.fit;
-  options.outlier_m = kOutlierOverNoise * robust_size(fit.error_m);
+  options.outlier_m = kOutlierOverNoise * robust_size(fit);
   const std::vector<Promise> left = scan_pushes(session, fit, facts_of(session), options);
   if (left.empty() || left.front().log_likelihood_gain < kAsMuch * named->gain) return "";
   const Model& next = left.front().start;

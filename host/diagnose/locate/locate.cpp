@@ -22,8 +22,9 @@ double chance_bar(double freedom, double upper_normal) {
 /// Of a map's directions only those are shown that the data tell this well beside the best told one.
 constexpr double kLeastTold = 1e-3;
 
+/// `alike`: what the errors would be if the cart were exactly the model, less what its numbers explain.
 AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
-               double damping, double looks) {
+               const Eigen::VectorXd& alike, double damping, double looks) {
   AxisMap map;
   map.axis = axis.axis, map.parity = axis.parity, map.names = axis.names;
   if (axis.edges.size() < 2) return map;
@@ -54,11 +55,14 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
       axes.eigenvectors() * inverse_of_told.asDiagonal() * axes.eigenvectors().transpose();
   const Eigen::VectorXd x = inverse * g;
   h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
-  const double explained = g.dot(h.ldlt().solve(g));
+  const Eigen::LDLT<Eigen::MatrixXd> solver(h);
+  const double explained = g.dot(solver.solve(g));
   const double ee = basis.e.squaredNorm();
   map.gain = basis.gain(std::max(ee - explained, 1e-9 * ee));
   constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
+  const Eigen::VectorXd of_alike = columns.transpose() * alike;
+  map.alike_gain = 0.5 * of_alike.dot(solver.solve(of_alike)) / basis.variance_m2;
   // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.
   const double l = std::log(40 * looks);
   const double quantile = std::sqrt(2 * l - std::log(4 * std::numbers::pi * l));
@@ -141,12 +145,27 @@ Location locate(const Session& session, const Fit& fit, const std::vector<double
 
   const Basis basis = basis_of(fit, options.outlier_m);
 
+  Eigen::VectorXd alike =
+      Eigen::Map<const Eigen::VectorXd>(alike_m.data(), static_cast<Eigen::Index>(alike_m.size()));
+  basis.project_out(alike);
+
   double looks = 0;
   for (const AxisBins& axis : axes) looks += static_cast<double>(axis.edges.size());
   location.axes.resize(axes.size());
   parallel_for(axes.size(), threads, [&](std::size_t i) {
-    location.axes[i] = map_of(session, axes[i], gains, basis, options.damping_per_s, looks);
+    location.axes[i] = map_of(session, axes[i], gains, basis, alike, options.damping_per_s, looks);
   });
+
+  // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.
+  double& beyond = location.beyond_chance;
+  for (const AxisMap& map : location.axes) {
+    if (!map.low.empty())
+      beyond = std::max(beyond, kStandsOutFromAlike * (map.alike_gain - map.mean()) / (map.bar - map.mean()));
+  }
+  for (AxisMap& map : location.axes) {
+    map.bar = map.mean() + beyond * (map.bar - map.mean());
+    for (double& band : map.band_m_per_s2) band *= std::sqrt(beyond);
+  }
 
   double power = 0;
   for (const Observation& o : seen) {

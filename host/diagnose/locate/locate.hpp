@@ -19,15 +19,20 @@ struct AxisMap {
   std::vector<double> push_m_per_s2;  ///< estimate; for odd maps positive is extra friction
   std::vector<double> band_m_per_s2;  ///< half width of the simultaneous band
   double gain = 0;                    ///< log-likelihood gained by the whole axis [nats]
-  double bar = 0;                     ///< what chance alone reaches on one of the axes in 1 of 2000 sessions
-  double share = 0;                   ///< of the disturbance power that the observer had to add
+  double bar = 0;         ///< what chance alone reaches on one of the axes in 1 of 2000 sessions; more where
+                          ///< a cart that is exactly the model comes near that on any
+  double alike_gain = 0;  ///< what such a cart gains [nats]
+  double share = 0;       ///< of the disturbance power that the observer had to add
   bool flat() const { return gain <= bar; }
+  /// What white errors gain on average.
+  double mean() const { return 0.5 * static_cast<double>(low.size()); }
   /// The widest stretch of neighbouring bins outside the band; empty where there is none.
   std::vector<double> stretch() const;
 };
 
 struct Location {
   std::vector<AxisMap> axes;
+  double beyond_chance = 1;  ///< by which the bars are lifted
   Profile over_way, over_frequency, over_lag;
   double repeat_correlation = 0;  ///< of smoothed errors between repeats; 0 without repeats
   double repeat_z = 0;            ///< that, in standard errors
@@ -36,7 +41,7 @@ struct Location {
 };
 
 /// `alike_m`: the errors that the fit would have if the cart were exactly its model, as for
-/// frequency_profile.
+/// frequency_profile. What they gain beyond chance, most of all axes, lifts all bars.
 Location locate(const Session& session, const Fit& fit, const std::vector<double>& alike_m,
                 const FitOptions& options, unsigned threads);
 

@@ -69,6 +69,11 @@ std::vector<double> smoothed(const std::vector<double>& power) {
   return mean;
 }
 
+/// Gain of a line, from its power over R recordings: the Chernoff bound of the tail of R unit exponentials.
+double gain_of_line(double power, double recordings) {
+  return power > recordings ? power - recordings - recordings * std::log(power / recordings) : 0;
+}
+
 }  // namespace
 
 std::size_t Profile::strongest() const {
@@ -118,18 +123,21 @@ Profile frequency_profile(const Session& session, const Fit& fit, const std::vec
   const double highest = std::min(kHighest_hz, 0.4 * session.rig.sample_rate_hz);
   for (double f = kLowest_hz; f < highest; f += kFrequencyStep_hz) profile.at.push_back(f);
   const std::vector<double> power = periodogram(session, fit.error_m, profile.at);
-  const std::vector<double> colour = smoothed(periodogram(session, alike_m, profile.at));
+  const std::vector<double> power_of_alike = periodogram(session, alike_m, profile.at);
+  const std::vector<double> colour = smoothed(power_of_alike);
   const auto recordings = static_cast<double>(
       std::count_if(session.recordings.begin(), session.recordings.end(),
                     [&](const Recording& r) { return r.size() > settling_rows(session.rig); }));
-  double most_power = 0;
+  double most_power = 0, most_of_alike = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     most_power = std::max(most_power, power[i]);
-    const double here = power[i] / std::max(1.0, colour[i] / recordings);
-    profile.value.push_back(here > recordings ? here - recordings - recordings * std::log(here / recordings)
-                                              : 0);
+    const double white = std::max(1.0, colour[i] / recordings);
+    profile.value.push_back(gain_of_line(power[i] / white, recordings));
+    most_of_alike = std::max(most_of_alike, gain_of_line(power_of_alike[i] / white, recordings));
   }
   set_bars(profile);
+  const double beyond = std::max(1.0, kStandsOutFromAlike * most_of_alike / profile.bar);
+  profile.band *= beyond, profile.bar *= beyond;
   profile.share = std::min(1.0, 2 * most_power / static_cast<double>(fit.error_m.size()));
   return profile;
 }

@@ -30,8 +30,11 @@ Profile spatial_frequency_profile(const Session& session, const Fit& fit, const 
 /// A line in time: the periodograms of all recordings together, 1 to 150 Hz. Under white errors their sum
 /// over R recordings is one of R unit exponentials; the gain is the Chernoff bound of its tail. The steps of
 /// an encoder colour errors: powers count relative to those of `alike_m` a few hertz around, the errors (a
-/// row for each of the fit's) of a cart that is exactly the model.
+/// row for each of the fit's) of a cart that is exactly the model, and its lines lift the bar.
 Profile frequency_profile(const Session& session, const Fit& fit, const std::vector<double>& alike_m);
+
+/// A line, or an axis, stands out from what a cart that is exactly the model shows by so much at least.
+inline constexpr double kStandsOutFromAlike = 2;
 
 /// Correlation of the errors with the change of the voltage so long before: what arrives late shows here.
 Profile input_lag_profile(const Session& session, const Fit& fit);

@@ -105,9 +105,11 @@ class Explainer {
   }
 
   /// What a further effect must gain.
-  static double least_further_gain(double so_far) { return std::max(kLeastGain, kLeastShareOfGain * so_far); }
+  double least_further_gain(double so_far) const {
+    return std::max(options_.least_gain, kLeastShareOfGain * so_far);
+  }
 
-  void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at.error_m); }
+  void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at); }
 
   /// Every promising term added to the best explanation so far, fitted; best score first.
   std::vector<Explanation> next_effects(Search& search, std::size_t stage, double least_gain) {
@@ -326,7 +328,8 @@ class Explainer {
       });
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
-        if (better < kLeastGain || !plausible(swapped.fit, swapped.effects[i], session_, facts_)) continue;
+        if (better < options_.least_gain || !plausible(swapped.fit, swapped.effects[i], session_, facts_))
+          continue;
         Explanation beaten = search.best;
         std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
                     beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
@@ -340,7 +343,7 @@ class Explainer {
   /// off until all else is known, it must gain what it had to gain to be found.
   void drop_redundant(Search& search) const {
     const double so_far = search.best.score() - search.refitted.score();
-    const double bar = search.best.has(Term::backlash) ? least_further_gain(so_far) : kLeastGain;
+    const double bar = search.best.has(Term::backlash) ? least_further_gain(so_far) : options_.least_gain;
     for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
       const Term term = search.best.effects[i];
       if (term == Term::encoder_missed_counts) continue;
@@ -361,12 +364,12 @@ class Explainer {
     const Session data = without_jumps(session_, search.best.jumps);
     while (const auto wave =
                scan_further_wave(data, search.best.fit, facts_, fit_options_, options_.threads)) {
-      if (wave->log_likelihood_gain < kLeastGain / kMostGainOverPromise) return;
+      if (wave->log_likelihood_gain < options_.least_gain / kMostGainOverPromise) return;
       Explanation further = search.best;
       further.fit =
           fit(data, wave->start, search.best.fit.noise, wave->free, with_kinks(wave->start, fit_options_));
       const double gain = further.score() - search.best.score();
-      if (gain < kLeastGain || !plausible(further.fit, Term::cogging, session_, facts_)) return;
+      if (gain < options_.least_gain || !plausible(further.fit, Term::cogging, session_, facts_)) return;
       cogging->gain += gain;
       search.best = std::move(further);
     }

@@ -28,7 +28,8 @@ struct Search {
 struct SearchOptions {
   unsigned threads = 2;
   std::size_t most_effects = 3;  ///< besides the terms that every cart has: viscous, Coulomb, constant force
-  std::vector<Parameter> held;   ///< of the nominal model: kept as given, because this session cannot tell
+  double least_gain = kLeastGain;  ///< of an effect
+  std::vector<Parameter> held;     ///< of the nominal model: kept as given, because this session cannot tell
   std::function<void(std::string_view what, double share_done)> progress;
 };
 

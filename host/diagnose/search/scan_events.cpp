@@ -123,7 +123,7 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
   double energy = 0;
   for (const double s : shape) energy += s * s;
   // A median-based noise size: the jumps themselves must not set the bar for finding them.
-  const double noise = robust_size(base.error_m);
+  const double noise = robust_size(base);
   const double variance = noise * noise;
 
   std::vector<ReadingJump> jumps;

@@ -14,7 +14,7 @@ namespace {
 FitOptions quick(const Fit& base) {
   FitOptions options;
   options.damping_per_s = linear_damping(base.model);
-  options.outlier_m = kOutlierOverNoise * robust_size(base.error_m);
+  options.outlier_m = kOutlierOverNoise * robust_size(base);
   options.most_rounds = 2;
   options.most_iterations = 6;
   options.tolerance = 1.0;
@@ -68,7 +68,7 @@ OneRound one_round(const Session& session, const Model& nominal, std::size_t mos
   options.damping_per_s = linear_damping(nominal);
   const NoiseModel noise = search_noise(session, nominal, options);
   const Fit first = fit(session, nominal, noise, free_parameters(nominal, facts_of(session)), options);
-  options.outlier_m = kOutlierOverNoise * robust_size(first.error_m);
+  options.outlier_m = kOutlierOverNoise * robust_size(first);
   return one_round(session, fit(session, first.model, first.noise, first.free, options), most_terms);
 }
 
