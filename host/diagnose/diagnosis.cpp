@@ -10,6 +10,7 @@
 #include "host/diagnose/judge/estimate.hpp"
 #include "host/diagnose/judge/further_push.hpp"
 #include "host/diagnose/judge/held_out.hpp"
+#include "host/diagnose/judge/held_out_push.hpp"
 #include "host/diagnose/judge/name_from_drive.hpp"
 #include "host/diagnose/judge/prediction_errors.hpp"
 #include "host/diagnose/judge/predicts_no_better.hpp"
@@ -27,8 +28,6 @@ using P = Parameter;
 
 /// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
 constexpr double kLeastParameterChange = 0.08;
-/// The greatest of ten that are alike is seldom more than so many times the greatest of nine.
-constexpr double kStandsOut = 2;
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
 constexpr double kMostLeftOfWindows = 0.2;
@@ -77,7 +76,7 @@ class Diagnostician {
     search.held = options_.held;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
     search_for_physics(used, search);
-    if (!held.empty() && shows_a_push(used, held)) {
+    if (!held.empty() && is_worth_using(held, used)) {
       result_.remarks.push_back(
           fmt::format("{} holds something of its own, so it was used and nothing held out.",
                       session_.recordings[held.front()].file));
@@ -128,30 +127,28 @@ class Diagnostician {
                   fit_options_, options_.threads);
   }
 
-  /// A push that happened only in the recording kept out would never be found without it. What the model
-  /// misses everywhere looks like pushes too: it is a push only if it stands out from what the recordings
-  /// that were used show.
-  bool shows_a_push(const Session& used, const std::vector<std::size_t>& held) const {
+  /// Share of the likelihood to be gained that the best explanation leaves.
+  double likelihood_left(const Location& after) const {
+    const Search& found = result_.search;
+    const double left = kGainOverPromise * structure_left(after);
+    const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
+    return left > 0 ? left / (left + gained) : 0;
+  }
+
+  /// A push that happened only in the recording kept out would never be found without it. One that does not
+  /// stand out is still no reason to refuse what explains all else: the law may have another form than its
+  /// term's, so all recordings are asked.
+  bool is_worth_using(const std::vector<std::size_t>& held, const Session& used) const {
     const Explanation& best = result_.search.best;
-    if (best.has(Term::external_disturbance)) return false;
-    FitOptions as_it_is = fit_options_;
-    as_it_is.move_noise = false;
-    const auto most_promised = [&](const Session& session, const Fit& fit) {
-      const std::vector<Promise> promises = scan_pushes(session, fit, facts_of(session), as_it_is);
-      return promises.empty() ? 0 : promises.front().log_likelihood_gain;
-    };
-    const Session out = put_right(only(session_, held));
-    const double here = most_promised(out, fit(out, best.fit.model, best.fit.noise, {}, as_it_is));
-    return here > 2 * kLeastGain &&
-           here > kStandsOut * most_promised(without_jumps(used, best.jumps), best.fit);
+    const HeldOutPush push = push_in(only(session_, held), used, best, fit_options_);
+    if (!push.shows || push.stands_out || best.has(Term::backlash)) return push.stands_out;
+    return likelihood_left(located(without_jumps(used, best.jumps), best.fit)) <= kMostLeftOfLikelihood;
   }
 
   void judge(const Session& repaired) {
     const Search& found = result_.search;
-    const double left = kGainOverPromise * structure_left(result_.after);
-    const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
-    const double of_likelihood = left > 0 ? left / (left + gained) : 0;
-    const double of_windows = left > 0 ? window_share_left() : 0;
+    const double of_likelihood = likelihood_left(result_.after);
+    const double of_windows = of_likelihood > 0 ? window_share_left() : 0;
     std::string why_refused = predicts_no_better(result_, windows_used_, windows_unseen_);
     drive_only_balances_ = result_.used.with_effects > result_.uniform_motion_m;
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
@@ -255,7 +252,7 @@ class Diagnostician {
     result_.uniform_motion_m = window_rmse_m(Model(0.0), repaired, options_.threads);
     result_.used_closed_loop = errors(closed_loop_errors, used, repaired).first;
     if (!held.empty()) {
-      const Session out = only(session_, held), mended = put_right(out);
+      const Session out = only(session_, held), mended = put_right(out, found.best, fit_options_);
       held_floor_m_ = floor_m(out);
       std::tie(result_.held_out, windows_unseen_) = errors(window_errors, out, mended);
       result_.held_out_closed_loop = errors(closed_loop_errors, out, mended).first;
@@ -268,15 +265,6 @@ class Diagnostician {
       floor = std::sqrt(floor * floor * (1 - systematic) + noise.reading_m * noise.reading_m * systematic);
     }
     result_.noise_floor_m = std::min(floor, result_.used.with_effects);
-  }
-
-  /// Where counts are lost: those of other recordings, found with the model as it stands.
-  Session put_right(const Session& out) const {
-    if (!result_.search.best.has(Term::encoder_missed_counts)) return out;
-    FitOptions as_it_is = fit_options_;
-    as_it_is.move_noise = false;
-    const Fit& best = result_.search.best.fit;
-    return without_jumps(out, scan_jumps(out, fit(out, best.model, best.noise, {}, as_it_is), as_it_is));
   }
 
   void name_effects(const Session& used) {
