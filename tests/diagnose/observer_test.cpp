@@ -64,6 +64,21 @@ TEST_P(Observer, TakesUpTheMotionBehindAGap) {
   EXPECT_LT(greatest_error_m(r, one, behind), 1.1 * kCount_m);
 }
 
+TEST_P(Observer, AveragesOverNoMoreThanSomeTenRoundedReadings) {
+  Rig one = rig(GetParam());
+  for (const double correlation_s : {0.0003, 0.003, 0.03}) {
+    const auto gain = [&] {
+      return observer_gains(bounded({1, correlation_s}, one), one.period_s(), kDamping_per_s)
+          .settled.position;
+    };
+    one.encoder_resolution_m = kCount_m;
+    EXPECT_GT(gain(), 0.05);
+    EXPECT_LT(gain(), 0.15);
+    one.encoder_resolution_m = 0;
+    EXPECT_LT(gain(), 0.05);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Rates, Observer, testing::Values(200.0, 500.0, 1000.0, 4000.0));
 
 }  // namespace
