@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -79,6 +80,9 @@ Outcome run(const Options& options) {
     files.push_back({"missing_force.csv", missing_force_csv(*diagnosis.unexplained)});
   const auto written = write_files(options.out, files);
   if (!written) return tl::unexpected(written.error());
+  std::error_code none_there;
+  if (!diagnosis.unexplained)  // that of an earlier run says nothing of this one
+    std::filesystem::remove(std::filesystem::path(options.out) / "missing_force.csv", none_there);
   if (options.json) {
     std::fputs(json.c_str(), stdout);
   } else {

@@ -1,4 +1,5 @@
 #include "host/diagnose/judge/hygiene.hpp"
+#include "host/session/gaps.hpp"
 
 #include <fmt/format.h>
 
@@ -52,6 +53,7 @@ Result<std::vector<std::string>> check_hygiene(const Session& session) {
         "y_m never moves in any recording: there is no motion to compare a model with; check encoder, "
         "amplifier and channel map");
   }
+  for (const std::string& line : gaps_in_words(session)) remarks.push_back(line + ".");
   return remarks;
 }
 
