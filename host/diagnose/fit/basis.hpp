@@ -26,8 +26,8 @@ struct Basis {
 
 Basis basis_of(const Fit& fit, double outlier_m);
 
-/// Standard deviation of a normal variable from the median size of a fit's errors, which outliers do not move,
-/// and no less than rounding leaves: where a cart mostly stands the median is nought.
+/// Standard deviation of a normal variable from the median size of a fit's errors, which outliers do not
+/// move, and no less than rounding leaves: where a cart mostly stands the median is nought.
 double robust_size(const Fit& fit);
 
 }  // namespace cartwright
