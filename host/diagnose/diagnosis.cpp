@@ -87,9 +87,7 @@ class Diagnostician {
     for (const std::size_t n : held) result_.held_out_recordings.push_back(session_.recordings[n].file);
     const Search& found = result_.search;
 
-    report("locating what is left", 0.82);
     const Session repaired = without_jumps(used, found.best.jumps);
-    result_.after = found.contests.empty() ? result_.before : located(repaired, found.best.fit);
     result_.model = found.best.fit.model;
     result_.refitted = found.refitted.fit.model;
 
@@ -116,6 +114,9 @@ class Diagnostician {
     const std::vector<Contest>& contests = result_.search.contests;
     if (std::any_of(contests.begin(), contests.end(), gains_too_little))
       result_.search = explain(used, nominal_, search);
+    report("locating what is left", 0.82);
+    const Explanation& best = result_.search.best;
+    result_.after = contests.empty() ? result_.before : located(without_jumps(used, best.jumps), best.fit);
   }
 
   void report(std::string_view what, double share) const {
@@ -128,9 +129,9 @@ class Diagnostician {
   }
 
   /// Share of the likelihood to be gained that the best explanation leaves.
-  double likelihood_left(const Location& after) const {
+  double likelihood_left() const {
     const Search& found = result_.search;
-    const double left = kGainOverPromise * structure_left(after);
+    const double left = kGainOverPromise * structure_left(result_.after);
     const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
     return left > 0 ? left / (left + gained) : 0;
   }
@@ -142,12 +143,12 @@ class Diagnostician {
     const Explanation& best = result_.search.best;
     const HeldOutPush push = push_in(only(session_, held), used, best, fit_options_);
     if (!push.shows || push.stands_out || best.has(Term::backlash)) return push.stands_out;
-    return likelihood_left(located(without_jumps(used, best.jumps), best.fit)) <= kMostLeftOfLikelihood;
+    return likelihood_left() <= kMostLeftOfLikelihood;
   }
 
   void judge(const Session& repaired) {
     const Search& found = result_.search;
-    const double of_likelihood = likelihood_left(result_.after);
+    const double of_likelihood = likelihood_left();
     const double of_windows = of_likelihood > 0 ? window_share_left() : 0;
     std::string why_refused = predicts_no_better(result_, windows_used_, windows_unseen_);
     drive_only_balances_ = result_.used.with_effects > result_.uniform_motion_m;

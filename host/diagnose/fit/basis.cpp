@@ -14,14 +14,16 @@ Basis basis_of(const Fit& fit, double outlier_m) {
   basis.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
   basis.project_out(basis.e);
   basis.least_mean_square_m2 = fit.least_mean_square_m2;
-  basis.variance_m2 = std::max(basis.e.squaredNorm() / static_cast<double>(rows), basis.least_mean_square_m2);
+  basis.squares_m2 = basis.e.squaredNorm();
+  basis.variance_m2 =
+      noise_variance_m2(basis.squares_m2, static_cast<double>(rows), basis.least_mean_square_m2);
   return basis;
 }
 
 double Basis::gain(double left_m2) const {
   const auto rows = static_cast<double>(e.size());
   return log_likelihood(left_m2, rows, least_mean_square_m2) -
-         log_likelihood(e.squaredNorm(), rows, least_mean_square_m2);
+         log_likelihood(squares_m2, rows, least_mean_square_m2);
 }
 
 double robust_size(const Fit& fit) {

@@ -177,8 +177,8 @@ class Fitter {
     result.log_likelihood = at.value;
     result.rows = e.size();
     result.least_mean_square_m2 = at.errors.least_mean_square_m2;
-    const double mean_square = sum_of(e, options_.outlier_m) / static_cast<double>(e.size());
-    result.error_rms_m = std::sqrt(std::max(mean_square, result.least_mean_square_m2));
+    result.error_rms_m = std::sqrt(noise_variance_m2(
+        sum_of(e, options_.outlier_m), static_cast<double>(e.size()), result.least_mean_square_m2));
     result.converged = converged;
     const Eigen::MatrixXd columns =
         options_.covariance ? jacobian(at) : Eigen::MatrixXd(static_cast<Eigen::Index>(e.size()), 0);
@@ -249,8 +249,12 @@ PairedDifference paired_difference(const Fit& better, const Fit& worse) {
   return difference;
 }
 
+double noise_variance_m2(double sum, double rows, double least_mean_square) {
+  return std::max({sum / rows, least_mean_square, 1e-300});
+}
+
 double log_likelihood(double sum, double rows, double least_mean_square) {
-  const double v = std::max({sum / rows, least_mean_square, 1e-300});
+  const double v = noise_variance_m2(sum, rows, least_mean_square);
   return -0.5 * rows * (std::log(v) + sum / (rows * v) - 1);
 }
 

@@ -36,8 +36,8 @@ struct FitOptions {
 ///
 /// with the noise size v concentrated out, but never below what rounding the readings leaves: a cart that
 /// stands is read without any error, and readings that are trusted for it make the rest of the recording
-/// sure of anything. `covariance` is that of block_covariance.hpp over blocks of time,
-/// repeats taken together: it stays honest when errors are coloured or the encoder's steps make them uneven.
+/// sure of anything. `covariance` is that of block_covariance.hpp over blocks of time, repeats taken
+/// together: it stays honest when errors are coloured or the encoder's steps make them uneven.
 struct Fit {
   Model model;
   NoiseModel noise;
@@ -79,8 +79,8 @@ NoiseModel search_noise(const Session& session, const Model& model, const FitOpt
 
 struct CountedErrors {
   std::vector<double> error_m;  ///< recordings in order
-  double least_mean_square_m2 =
-      0;  ///< what rounding alone makes of it, q^2 / 12 times the error variance ratio
+  /// What rounding alone leaves, q^2 / 12 times the error variance ratio.
+  double least_mean_square_m2 = 0;
 };
 
 /// All counted errors of a session.
@@ -89,7 +89,8 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
 
 double log_likelihood(const CountedErrors& errors, double outlier_m);
 
-/// The same of so many rows whose rho(e) add up to `sum_m2`.
+/// The noise size v of so many rows whose rho(e) add up to `sum_m2`, and their log-likelihood.
+double noise_variance_m2(double sum_m2, double rows, double least_mean_square_m2);
 double log_likelihood(double sum_m2, double rows, double least_mean_square_m2);
 
 }  // namespace cartwright

@@ -1,11 +1,11 @@
 #include "host/diagnose/judge/hygiene.hpp"
-#include "host/session/gaps.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "host/session/gaps.hpp"
 #include "host/session/rate.hpp"
 
 namespace cartwright {

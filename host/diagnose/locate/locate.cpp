@@ -57,7 +57,7 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
   const Eigen::LDLT<Eigen::MatrixXd> solver(h);
   const double explained = g.dot(solver.solve(g));
-  const double ee = basis.e.squaredNorm();
+  const double ee = basis.squares_m2;
   map.gain = basis.gain(std::max(ee - explained, 1e-9 * ee));
   constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);

@@ -85,11 +85,11 @@ class WaveColumns {
 };
 
 /// The best multiples of two columns that have been projected out of the basis.
-Wave wave_of(const Eigen::Ref<const Eigen::MatrixXd>& pair, const Basis& basis, double ee) {
+Wave wave_of(const Eigen::Ref<const Eigen::MatrixXd>& pair, const Basis& basis) {
   const Eigen::Matrix2d h = pair.transpose() * pair;
   const Eigen::Vector2d g = pair.transpose() * basis.e;
   const Eigen::Vector2d x = h.ldlt().solve(g);
-  const double left = std::max(ee - x.dot(g), 1e-12 * ee);
+  const double left = std::max(basis.squares_m2 - x.dot(g), 1e-12 * basis.squares_m2);
   return {basis.gain(left), x[0], x[1]};
 }
 
@@ -103,7 +103,6 @@ PositionSpectrum position_spectrum(const Session& session, const Fit& base, cons
                                    const FitOptions& options, Waves waves, unsigned threads) {
   const Basis basis = basis_of(base, options.outlier_m);
   const auto rows = basis.e.size();
-  const double ee = basis.e.squaredNorm();
   const bool with_reading = waves == Waves::of_push_and_reading;
 
   const double least_period =
@@ -131,8 +130,8 @@ PositionSpectrum position_spectrum(const Session& session, const Fit& base, cons
         influence.fill<2>(wave, columns);
       }
       basis.project_out(columns);
-      spectrum.push[i] = wave_of(columns.leftCols(2), basis, ee);
-      if (with_reading) spectrum.reading[i] = wave_of(columns.rightCols(2), basis, ee);
+      spectrum.push[i] = wave_of(columns.leftCols(2), basis);
+      if (with_reading) spectrum.reading[i] = wave_of(columns.rightCols(2), basis);
     }
   });
   return spectrum;

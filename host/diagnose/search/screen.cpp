@@ -34,7 +34,6 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
   const auto rows = e.size();
 
   std::vector<Promise> promises;
-  std::vector<const Candidate*> owner;
   for (const Candidate& candidate : list) {
     for (const auto& start : candidate.starts) {
       Promise promise{candidate.term, with_start(base.model, start), base.free, 0};
