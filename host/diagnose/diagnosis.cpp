@@ -124,8 +124,9 @@ class Diagnostician {
   }
 
   Location located(const Session& session, const Fit& fit) const {
-    return locate(session, fit, errors_of_surrogate(session, fit, fit_options_, options_.threads),
-                  fit_options_, options_.threads);
+    FitOptions options = fit_options_;
+    options.threads = options_.threads;
+    return locate(session, fit, alike(session, fit, options), options);
   }
 
   /// Share of the likelihood to be gained that the best explanation leaves.

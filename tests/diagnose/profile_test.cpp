@@ -29,7 +29,8 @@ class Profiles : public testing::Test {
 
   Profile over_way() const { return spatial_frequency_profile(session_, fit_, options_, 2); }
   Profile over_frequency() const {
-    return frequency_profile(session_, fit_, errors_of_surrogate(session_, fit_, options_, 2));
+    const Session cart = alike(session_, fit_, options_);
+    return frequency_profile(session_, fit_, counted_errors(cart, fit_.model, fit_.noise, options_).error_m);
   }
   Profile over_lag() const { return input_lag_profile(session_, fit_); }
 

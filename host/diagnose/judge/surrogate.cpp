@@ -1,6 +1,7 @@
 #include "host/diagnose/judge/surrogate.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "common/model/encoder.hpp"
@@ -8,6 +9,14 @@
 #include "host/evaluate/control_law.hpp"
 
 namespace cartwright {
+namespace {
+
+double rms(const std::vector<double>& values) {
+  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+}  // namespace
 
 NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s) {
   const ObserverGain gain = observer_gains(fit.noise, rig.period_s(), damping_per_s).settled;
@@ -50,11 +59,17 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
   return out;
 }
 
-std::vector<double> errors_of_surrogate(const Session& session, const Fit& fit, FitOptions options,
-                                        unsigned threads) {
-  const NoiseSize noise = noise_size(fit, session.rig, options.damping_per_s);
-  options.threads = threads;
-  return counted_errors(surrogate(session, fit.model, noise, 1), fit.model, fit.noise, options).error_m;
+Session alike(const Session& session, const Fit& fit, const FitOptions& options) {
+  NoiseSize noise = noise_size(fit, session.rig, options.damping_per_s);
+  Session shaken = surrogate(session, fit.model, noise, 1);
+  if (session.rig.encoder_resolution_m <= 0) return shaken;
+  noise.disturbance_m_per_s2 = 0;
+  Session still = surrogate(session, fit.model, noise, 1);
+  const auto unlike = [&](const Session& other) {
+    const std::vector<double> error_m = counted_errors(other, fit.model, fit.noise, options).error_m;
+    return std::abs(rms(error_m) - rms(fit.error_m));
+  };
+  return unlike(still) < unlike(shaken) ? still : shaken;
 }
 
 }  // namespace cartwright

@@ -19,8 +19,9 @@ NoiseSize noise_size(const Fit& fit, const Rig& rig, double damping_per_s);
 /// where it has none).
 Session surrogate(const Session& session, const Model& model, const NoiseSize& noise, std::uint64_t seed);
 
-/// The errors that a fit would have if the cart were exactly its model: a row for each of the fit's.
-std::vector<double> errors_of_surrogate(const Session& session, const Fit& fit, FitOptions options,
-                                        unsigned threads);
+/// The experiments of a fit on a cart that is exactly its model, to see what such a cart shows. What a fit
+/// takes for a disturbance may be the rounding of the readings: of a cart with it and one without, the one
+/// whose errors are nearer in size to the fit's.
+Session alike(const Session& session, const Fit& fit, const FitOptions& options);
 
 }  // namespace cartwright

@@ -22,16 +22,30 @@ double chance_bar(double freedom, double upper_normal) {
 /// Of a map's directions only those are shown that the data tell this well beside the best told one.
 constexpr double kLeastTold = 1e-3;
 
-/// `alike`: what the errors would be if the cart were exactly the model, less what its numbers explain.
-AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
-               const Eigen::VectorXd& alike, double damping, double looks) {
-  AxisMap map;
-  map.axis = axis.axis, map.parity = axis.parity, map.names = axis.names;
-  if (axis.edges.size() < 2) return map;
-  const auto bins = static_cast<Eigen::Index>(axis.edges.size()) - 1;
-  Eigen::MatrixXd columns(basis.e.size(), bins);
+/// A session beside which the model ran, and its rows sorted into the bins of all axes.
+struct Observed {
+  const Session& session;
+  std::vector<Observation> seen;
+  std::vector<AxisBins> axes;
+};
+
+Observed observed(const Session& session, const Model& model, const ObserverGains& gains, unsigned threads) {
+  ObserverOptions keep;
+  keep.keep_states = true;
+  Observed out{session, std::vector<Observation>(session.recordings.size()), {}};
+  parallel_for(out.seen.size(), threads, [&](std::size_t n) {
+    out.seen[n] = observe(model, gains, session.rig, session.recordings[n], keep);
+  });
+  out.axes = axes_of(session, out.seen);
+  return out;
+}
+
+/// What a unit push in each bin would add to the errors: a column for each bin.
+Eigen::MatrixXd columns_of(const Session& session, const AxisBins& axis, const ObserverGains& gains,
+                           double damping, Eigen::Index rows) {
+  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(axis.edges.size()) - 1);
   const std::size_t skip = settling_rows(session.rig);
-  for (Eigen::Index b = 0; b < bins; ++b) {
+  for (Eigen::Index b = 0; b < columns.cols(); ++b) {
     Eigen::Index row = 0;
     for (std::size_t n = 0; n < session.recordings.size(); ++n) {
       Influence influence(gains, session.rig.period_s(), damping);
@@ -42,6 +56,16 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
       }
     }
   }
+  return columns;
+}
+
+AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
+               double damping, double looks) {
+  AxisMap map;
+  map.axis = axis.axis, map.parity = axis.parity, map.names = axis.names;
+  if (axis.edges.size() < 2) return map;
+  const auto bins = static_cast<Eigen::Index>(axis.edges.size()) - 1;
+  Eigen::MatrixXd columns = columns_of(session, axis, gains, damping, basis.e.size());
   basis.project_out(columns);
   Eigen::MatrixXd h = columns.transpose() * columns;
   const Eigen::VectorXd g = columns.transpose() * basis.e;
@@ -61,8 +85,6 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   map.gain = basis.gain(std::max(ee - explained, 1e-9 * ee));
   constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
-  const Eigen::VectorXd of_alike = columns.transpose() * alike;
-  map.alike_gain = 0.5 * of_alike.dot(solver.solve(of_alike)) / basis.variance_m2;
   // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.
   const double l = std::log(40 * looks);
   const double quantile = std::sqrt(2 * l - std::log(4 * std::numbers::pi * l));
@@ -131,29 +153,39 @@ std::vector<double> AxisMap::stretch() const {
   return best;
 }
 
-Location locate(const Session& session, const Fit& fit, const std::vector<double>& alike_m,
-                const FitOptions& options, unsigned threads) {
+/// What pushes in all bins would gain [nats] on errors that are `alike`'s, relative to the noise of the fit.
+double gain_of(const Session& alike, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
+               const Eigen::VectorXd& errors, double damping) {
+  if (axis.edges.size() < 2) return 0;
+  Eigen::MatrixXd columns = columns_of(alike, axis, gains, damping, errors.size());
+  basis.project_out(columns);
+  Eigen::MatrixXd h = columns.transpose() * columns;
+  h.diagonal() *= 1 + 1e-9;
+  const Eigen::VectorXd g = columns.transpose() * errors;
+  return 0.5 * g.dot(h.ldlt().solve(g)) / basis.variance_m2;
+}
+
+Location locate(const Session& session, const Fit& fit, const Session& alike, const FitOptions& options) {
   Location location;
+  const unsigned threads = options.threads;
   const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
-  ObserverOptions keep;
-  keep.keep_states = true;
-  std::vector<Observation> seen(session.recordings.size());
-  parallel_for(seen.size(), threads, [&](std::size_t n) {
-    seen[n] = observe(fit.model, gains, session.rig, session.recordings[n], keep);
-  });
-  const std::vector<AxisBins> axes = axes_of(session, seen);
+  const Observed here = observed(session, fit.model, gains, threads);
+  const Observed there = observed(alike, fit.model, gains, threads);
+  const std::vector<AxisBins>& axes = here.axes;
 
   const Basis basis = basis_of(fit, options.outlier_m);
-
-  Eigen::VectorXd alike =
+  const std::vector<double> alike_m = counted_errors(alike, fit.model, fit.noise, options).error_m;
+  Eigen::VectorXd errors_of_alike =
       Eigen::Map<const Eigen::VectorXd>(alike_m.data(), static_cast<Eigen::Index>(alike_m.size()));
-  basis.project_out(alike);
+  basis.project_out(errors_of_alike);
 
   double looks = 0;
   for (const AxisBins& axis : axes) looks += static_cast<double>(axis.edges.size());
   location.axes.resize(axes.size());
   parallel_for(axes.size(), threads, [&](std::size_t i) {
-    location.axes[i] = map_of(session, axes[i], gains, basis, alike, options.damping_per_s, looks);
+    const double damping = options.damping_per_s;
+    location.axes[i] = map_of(session, axes[i], gains, basis, damping, looks);
+    location.axes[i].alike_gain = gain_of(alike, there.axes[i], gains, basis, errors_of_alike, damping);
   });
 
   // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.
@@ -168,13 +200,13 @@ Location locate(const Session& session, const Fit& fit, const std::vector<double
   }
 
   double power = 0;
-  for (const Observation& o : seen) {
+  for (const Observation& o : here.seen) {
     for (const double d : o.disturbance_m_per_s2) power += d * d;
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     AxisMap& map = location.axes[i];
     double explained = 0;
-    for (std::size_t n = 0; n < seen.size(); ++n) {
+    for (std::size_t n = 0; n < here.seen.size(); ++n) {
       for (const int b : axes[i].bin[n]) {
         if (b < 0) continue;
         const double push = map.push_m_per_s2[static_cast<std::size_t>(b)];

@@ -40,9 +40,8 @@ struct Location {
   std::array<const Profile*, 3> profiles() const { return {&over_way, &over_frequency, &over_lag}; }
 };
 
-/// `alike_m`: the errors that the fit would have if the cart were exactly its model, as for
-/// frequency_profile. What they gain beyond chance, most of all axes, lifts all bars.
-Location locate(const Session& session, const Fit& fit, const std::vector<double>& alike_m,
-                const FitOptions& options, unsigned threads);
+/// `alike`: the same recordings of a cart that is exactly the fit's model. What its own axes gain beyond
+/// chance, most of all of them, lifts all bars.
+Location locate(const Session& session, const Fit& fit, const Session& alike, const FitOptions& options);
 
 }  // namespace cartwright

@@ -25,13 +25,22 @@ bool has_sign(Term term) {
   }
 }
 
+/// What the best multiple of a column would gain [nats], the model's own numbers refitted beside it.
+double gain_of(const Basis& basis, Eigen::VectorXd column, bool either_sign) {
+  basis.project_out(column);
+  const double cc = column.squaredNorm();
+  if (!(cc > 0)) return 0;
+  double multiple = -column.dot(basis.e) / cc;
+  if (!either_sign) multiple = std::clamp(multiple, 0.0, kMostMultiple);
+  return basis.gain((basis.e + multiple * column).squaredNorm());
+}
+
 }  // namespace
 
 std::vector<Promise> screen(const Session& session, const Fit& base, const std::vector<Candidate>& list,
                             const FitOptions& options, unsigned threads) {
   const Basis basis = basis_of(base, options.outlier_m);
-  const Eigen::VectorXd& e = basis.e;
-  const auto rows = e.size();
+  const auto rows = basis.e.size();
 
   std::vector<Promise> promises;
   for (const Candidate& candidate : list) {
@@ -46,17 +55,13 @@ std::vector<Promise> screen(const Session& session, const Fit& base, const std::
     const std::vector<double> errors = counted_errors(session, promise.start, base.noise, options).error_m;
     Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(errors.data(), rows) -
                              Eigen::Map<const Eigen::VectorXd>(base.error_m.data(), rows);
+    promise.log_likelihood_gain = gain_of(basis, column, has_sign(promise.term));
     if (options.outlier_m > 0) {
-      column = column.cwiseMin(2 * options.outlier_m).cwiseMax(-2 * options.outlier_m);
+      // Rows that a start throws off course hide the others; where it is only too strong they are its shape.
+      const double most = 2 * options.outlier_m;
+      const double clipped = gain_of(basis, column.cwiseMin(most).cwiseMax(-most), has_sign(promise.term));
+      promise.log_likelihood_gain = std::max(promise.log_likelihood_gain, clipped);
     }
-    basis.project_out(column);
-    const double cc = column.squaredNorm();
-    if (!(cc > 0)) return;
-    double multiple = -column.dot(e) / cc;
-    multiple = std::clamp(multiple, has_sign(promise.term) ? -1e9 : 0.0,
-                          has_sign(promise.term) ? 1e9 : kMostMultiple);
-    const double left = (e + multiple * column).squaredNorm();
-    promise.log_likelihood_gain = basis.gain(left);
   });
   std::stable_sort(promises.begin(), promises.end(), [](const Promise& a, const Promise& b) {
     return a.log_likelihood_gain > b.log_likelihood_gain;
