@@ -51,7 +51,7 @@ TEST(RoundingOnly, WhatACreepingCartSeemsToLackOneThatIsTheModelLacksAsWell) {
     return axis.axis == "acceleration_m_per_s2";
   });
   ASSERT_NE(acceleration, location.axes.end());
-    EXPECT_GT(acceleration->gain, 3 * acceleration->mean()) << "else this test shows nothing";
+  EXPECT_GT(acceleration->gain, 3 * acceleration->mean()) << "else this test shows nothing";
   EXPECT_GT(acceleration->alike_gain, 0.5 * acceleration->gain);
   for (const AxisMap& axis : location.axes) EXPECT_TRUE(axis.flat()) << axis.axis << ' ' << axis.parity;
 }

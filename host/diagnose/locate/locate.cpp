@@ -22,9 +22,8 @@ double chance_bar(double freedom, double upper_normal) {
 /// Of a map's directions only those are shown that the data tell this well beside the best told one.
 constexpr double kLeastTold = 1e-3;
 
-/// A session beside which the model ran, and its rows sorted into the bins of all axes.
+/// What the model saw beside a session, whose rows are sorted into the bins of all axes.
 struct Observed {
-  const Session& session;
   std::vector<Observation> seen;
   std::vector<AxisBins> axes;
 };
@@ -32,7 +31,7 @@ struct Observed {
 Observed observed(const Session& session, const Model& model, const ObserverGains& gains, unsigned threads) {
   ObserverOptions keep;
   keep.keep_states = true;
-  Observed out{session, std::vector<Observation>(session.recordings.size()), {}};
+  Observed out{std::vector<Observation>(session.recordings.size()), {}};
   parallel_for(out.seen.size(), threads, [&](std::size_t n) {
     out.seen[n] = observe(model, gains, session.rig, session.recordings[n], keep);
   });
@@ -98,6 +97,18 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   return map;
 }
 
+/// What pushes in all bins would gain [nats] on errors that are `alike`'s, relative to the noise of the fit.
+double gain_of(const Session& alike, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
+               const Eigen::VectorXd& errors, double damping) {
+  if (axis.edges.size() < 2) return 0;
+  Eigen::MatrixXd columns = columns_of(alike, axis, gains, damping, errors.size());
+  basis.project_out(columns);
+  Eigen::MatrixXd h = columns.transpose() * columns;
+  h.diagonal() *= 1 + 1e-9;
+  const Eigen::VectorXd g = columns.transpose() * errors;
+  return 0.5 * g.dot(h.ldlt().solve(g)) / basis.variance_m2;
+}
+
 /// Pairs of repeats have the same physics left out and different noise.
 void compare_repeats(const Session& session, const Fit& fit, Location& location) {
   constexpr double kSmooth_s = 0.02;
@@ -151,18 +162,6 @@ std::vector<double> AxisMap::stretch() const {
     i = std::max(j, i + 1);
   }
   return best;
-}
-
-/// What pushes in all bins would gain [nats] on errors that are `alike`'s, relative to the noise of the fit.
-double gain_of(const Session& alike, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
-               const Eigen::VectorXd& errors, double damping) {
-  if (axis.edges.size() < 2) return 0;
-  Eigen::MatrixXd columns = columns_of(alike, axis, gains, damping, errors.size());
-  basis.project_out(columns);
-  Eigen::MatrixXd h = columns.transpose() * columns;
-  h.diagonal() *= 1 + 1e-9;
-  const Eigen::VectorXd g = columns.transpose() * errors;
-  return 0.5 * g.dot(h.ldlt().solve(g)) / basis.variance_m2;
 }
 
 Location locate(const Session& session, const Fit& fit, const Session& alike, const FitOptions& options) {
