@@ -275,9 +275,9 @@ class Diagnostician {
     double gains = 0;
     for (const Contest& contest : found.contests) gains += contest.gain;
     const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
-    const Where where = where_of(result_.before);
     for (const Contest& contest : found.contests) {
-      Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, where, ""};
+      Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, {}, ""};
+      effect.where = where_of(contest.chosen, result_.model, result_.before);
       if (contest.chosen == Term::encoder_missed_counts) {
         effect.parameters =
             lost_counts(without_jumps(used, found.best.jumps), found.best.jumps, result_.model);

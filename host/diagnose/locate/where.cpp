@@ -30,4 +30,13 @@ Where where_of(const Location& location) {
   return where;
 }
 
+Where where_of(Term effect, const Model& model, const Location& location) {
+  Where where = where_of(location);
+  if (effect == Term::external_disturbance) {
+    const double start_s = model[Parameter::disturbance_start];
+    where["time_s"] = {start_s, start_s + model[Parameter::disturbance_duration]};
+  }
+  return where;
+}
+
 }  // namespace cartwright

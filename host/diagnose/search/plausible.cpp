@@ -1,15 +1,18 @@
 #include "host/diagnose/search/plausible.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "host/diagnose/observe/observer.hpp"
+#include "host/statistics/distributions.hpp"
 
 namespace cartwright {
 namespace {
 
 /// The lines of an encoder stand no nearer to their places than half a count: a smaller error is the encoder
 /// itself, not the way it was mounted.
-constexpr double kLeastEccentricity = 0.5;
+constexpr double kLeastEccentricity_counts = 0.5;
 
 /// A winding 150 K above the room, the most that insulation of class H bears, has 1.6 times its resistance:
 /// the gain is then 0.63 of what it was. Even small windings take a second to warm up.
@@ -28,7 +31,24 @@ bool inside_its_recording(const Model& model, const Session& session) {
          start_s + 0.5 * duration_s >= r->t_s[settling_rows(session.rig)];
 }
 
+/// Of two masses, not of one and next to nothing: where the smaller one's share is not told from its least,
+/// the coupling is a law for the motor alone.
+bool of_two_masses(const Fit& fit) {
+  constexpr Parameter kShare = Parameter::coupling_load_share;
+  const auto share =
+      std::find_if(fit.free.begin(), fit.free.end(), [](const FreeParameter& p) { return p.id == kShare; });
+  if (share == fit.free.end()) return true;
+  const double value = fit.model[kShare];
+  const double from_bound = std::min(value - share->lower, share->upper - value);
+  return from_bound > std::min(normal(0.95) * fit.standard_error(kShare), share->lower);
+}
+
 }  // namespace
+
+double eccentricity_of(const Model& model) {
+  return 2 * std::numbers::pi * std::abs(model[Parameter::eccentricity_amplitude]) /
+         model[Parameter::eccentricity_period];
+}
 
 bool plausible(const Fit& fit, Term effect, const Session& session, const SessionFacts& facts) {
   for (const FreeParameter& p : fit.free) {
@@ -41,15 +61,16 @@ bool plausible(const Fit& fit, Term effect, const Session& session, const Sessio
   switch (effect) {
     case Term::backlash:
       return fit.model[Parameter::backlash_gap] >= count;
-    case Term::flexible_coupling:  // of two masses, not of one and next to nothing
-      return !fit.at_bound(Parameter::coupling_load_share);
+    case Term::flexible_coupling:
+      return of_two_masses(fit);
     case Term::cogging:
       return std::all_of(kCoggingWaves.begin(), kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
         return fit.model[wave.amplitude] == 0 || fit.model[wave.period] <= longest_m;
       });
     case Term::encoder_eccentricity:
       return fit.model[Parameter::eccentricity_period] <= longest_m &&
-             fit.model[Parameter::eccentricity_amplitude] >= kLeastEccentricity * count;
+             fit.model[Parameter::eccentricity_amplitude] >= kLeastEccentricity_counts * count &&
+             eccentricity_of(fit.model) <= kMostEccentricity;
     case Term::motor_heating:
       return fit.model[Parameter::heating_gain_loss] <= kMostHeating &&
              fit.model[Parameter::heating_time_constant] >= kFastestHeating_s;

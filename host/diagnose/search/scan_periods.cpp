@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "host/diagnose/locate/position_spectrum.hpp"
+#include "host/diagnose/search/plausible.hpp"
 #include "host/diagnose/search/scan.hpp"
 
 namespace cartwright {
@@ -42,10 +43,14 @@ std::vector<Promise> scan_periods(const Session& session, const Fit& base, const
       position_spectrum(session, base, facts, options, Waves::of_push_and_reading, threads);
   std::vector<Promise> promises;
   const auto take_tops = [&](const std::vector<Wave>& waves, Term term, const PeriodicTerm& as) {
-    std::vector<std::size_t> tops = tops_of(waves, spectrum.first_told_apart());
-    if (tops.size() > kPeaksKept) tops.resize(kPeaksKept);
-    for (const std::size_t top : tops)
-      promises.push_back(promise_of(spectrum, waves, top, term, as, base, facts));
+    std::size_t kept = 0;
+    for (const std::size_t top : tops_of(waves, spectrum.first_told_apart())) {
+      Promise promise = promise_of(spectrum, waves, top, term, as, base, facts);
+      // So large an error would no longer be seen as a wave over the way that is read.
+      if (term == Term::encoder_eccentricity && eccentricity_of(promise.start) > kMostEccentricity) continue;
+      promises.push_back(std::move(promise));
+      if (++kept == kPeaksKept) break;
+    }
   };
   if (!base.model.has(Term::cogging)) take_tops(spectrum.push, Term::cogging, kCoggingWaves.front());
   if (!base.model.has(Term::encoder_eccentricity)) {
