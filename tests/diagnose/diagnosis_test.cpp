@@ -189,6 +189,10 @@ TEST(Diagnosis, FindsAPushInTheRecordingItWouldHaveKeptOut) {
   EXPECT_EQ(d.model.disturbance_recording, file);
   EXPECT_NEAR(d.model[P::disturbance_start], 1.5, 0.01);
   EXPECT_NEAR(d.model[P::disturbance_peak], 2, 0.1);
+  const std::vector<double>& when_s = d.effects.front().where.at("time_s");
+  ASSERT_EQ(when_s.size(), 2u);
+  EXPECT_NEAR(when_s.front(), 1.5, 0.01);
+  EXPECT_NEAR(when_s.back(), 1.7, 0.01);
   EXPECT_TRUE(d.held_out_recordings.empty());
 }
 

@@ -1,0 +1,61 @@
+#include "host/diagnose/search/plausible.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cartwright {
+namespace {
+
+using P = Parameter;
+
+/// What a session must show of a cart's travel and encoder.
+SessionFacts facts() {
+  SessionFacts facts;
+  facts.count_m = 2e-5;
+  facts.position_low_m = -0.2, facts.position_high_m = 0.2;
+  return facts;
+}
+
+Session session() {
+  Session session;
+  session.rig.encoder_resolution_m = facts().count_m;
+  return session;
+}
+
+/// A coupling whose load has this share of the mass, told that well.
+bool coupling(double load_share, double standard_error) {
+  Fit fit;
+  fit.model = Model(2.0).set(P::coupling_resonance, 12).set(P::coupling_load_share, load_share);
+  fit.free = {free_parameter(P::coupling_load_share, facts(), fit.model)};
+  fit.covariance.setConstant(1, 1, standard_error * standard_error);
+  return plausible(fit, Term::flexible_coupling, session(), facts());
+}
+
+TEST(Plausible, ACouplingIsOfTwoMasses) {
+  EXPECT_TRUE(coupling(0.5, 0.01));
+  EXPECT_FALSE(coupling(0.97, 0.0001)) << "at its bound";
+  EXPECT_FALSE(coupling(0.965, 0.004)) << "not told from its bound";
+  EXPECT_FALSE(coupling(0.035, 0.004)) << "nor from the other one";
+  EXPECT_TRUE(coupling(0.965, 0.001)) << "told from it";
+  EXPECT_TRUE(coupling(0.8, 0.3)) << "that little is known of a share says nothing against it";
+}
+
+/// An encoder that turns so many radii off its own axis, on a wheel of a 60 mm circumference.
+bool encoder(double eccentricity) {
+  constexpr double kPeriod_m = 0.06;
+  Fit fit;
+  fit.model = Model(2.0)
+                  .set(P::eccentricity_period, kPeriod_m)
+                  .set(P::eccentricity_amplitude, eccentricity * kPeriod_m / (2 * M_PI));
+  return plausible(fit, Term::encoder_eccentricity, session(), facts());
+}
+
+TEST(Plausible, AnEncoderTurnsNearlyAboutItsAxis) {
+  EXPECT_TRUE(encoder(0.02));
+  EXPECT_FALSE(encoder(0.4));
+  EXPECT_FALSE(encoder(0.0005)) << "less than half a count";
+}
+
+}  // namespace
+}  // namespace cartwright
