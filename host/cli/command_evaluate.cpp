@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -45,6 +46,14 @@ void print_row(const std::string& name, const SquaredError& closed_loop, const S
   fmt::print("{:<28} {:>12} {:>12} {:>12}\n", name, cell(closed_loop), cell(window), cell(open_loop));
 }
 
+/// Recordings that differ only by their extension keep it.
+std::string prediction_file(const Session& session, const Recording& recording) {
+  const auto stem = [](const Recording& r) { return std::filesystem::path(r.file).stem(); };
+  const auto alike = std::count_if(session.recordings.begin(), session.recordings.end(),
+                                   [&](const Recording& other) { return stem(other) == stem(recording); });
+  return (alike > 1 ? recording.file : stem(recording).string()) + ".prediction.csv";
+}
+
 Outcome run(const Options& options) {
   const auto model = read_model(options.model);
   if (!model) return tl::unexpected(model.error());
@@ -61,8 +70,7 @@ Outcome run(const Options& options) {
     all.closed_loop.add(prediction.closed_loop);
     all.window.add(prediction.window);
     all.open_loop.add(prediction.open_loop);
-    files.push_back({std::filesystem::path(recording.file).stem().string() + ".prediction.csv",
-                     to_csv(to_table(prediction, recording))});
+    files.push_back({prediction_file(*session, recording), to_csv(to_table(prediction, recording))});
   }
   const auto written = write_files(options.out, files);
   if (!written) return tl::unexpected(written.error());

@@ -27,17 +27,9 @@ struct Samples {
 
 /// The rows within [from, to] whose cell is not empty.
 Result<Samples> select(const CsvTable& table, const Options& options) {
-  const auto column_of = [&](const std::string& name) -> Result<const std::vector<double>*> {
-    const auto* column = table.find(name);
-    if (column == nullptr) {
-      return failure(
-          fmt::format("{}: no column {}; it has {}", options.file, name, fmt::join(table.names, ", ")));
-    }
-    return column;
-  };
-  const auto t_s = column_of("t_s");
+  const auto t_s = table.required("t_s", options.file);
   if (!t_s) return tl::unexpected(t_s.error());
-  const auto y = column_of(options.column);
+  const auto y = table.required(options.column, options.file);
   if (!y) return tl::unexpected(y.error());
   Samples samples;
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "host/cli/command.hpp"
 
@@ -15,6 +17,23 @@ int after_output(int status) {
   std::fprintf(stderr, "cartwright: standard output cannot be written: %s\n",
                flushed ? "is the disk full?" : std::strerror(errno));
   return static_cast<int>(cartwright::cli::Status::unusable);
+}
+
+/// A word that is no command and no option is told by its name before anything that is missing.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = &app;
+  std::string path = "cartwright";
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    path += " " + command->get_name();
+  }
+  const std::string help = "; see " + path + " --help";
+  const std::vector<std::string> words = command->remaining();
+  if (words.empty()) return error.what() + help;
+  const bool option = words.front().starts_with('-');
+  if (!option && command->get_require_subcommand_min() == 0) return error.what() + help;
+  const std::string missing = (option ? "option " : "command ") + words.front();
+  return (command == &app ? "there is no " : command->get_name() + " has no ") + missing + help;
 }
 
 }  // namespace
@@ -54,7 +73,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& request) {  // --help, --version
     return after_output(app.exit(request));
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "cartwright: %s; see cartwright --help\n", error.what());
+    std::fprintf(stderr, "cartwright: %s\n", what_is_wrong(app, error).c_str());
     return static_cast<int>(Status::unusable);
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return after_output(0);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "host/session/files.hpp"
 
@@ -28,6 +29,52 @@ char separator_of(std::string_view header) {
   return ',';
 }
 
+/// Where the first cell of a line ends; separators between quotes are part of it.
+std::size_t end_of_cell(std::string_view line, char separator) {
+  const auto first = line.find_first_not_of(' ');
+  if (first != std::string_view::npos && line[first] == '"') {
+    auto close = line.find('"', first + 1);
+    while (close != std::string_view::npos && line.substr(close + 1).starts_with('"'))
+      close = line.find('"', close + 2);
+    if (close != std::string_view::npos) return line.find(separator, close);
+  }
+  return line.find(separator);
+}
+
+/// The start of a cell, fit to be shown.
+std::string shown(std::string_view cell) {
+  std::string text(cell.substr(0, 40));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+/// A number, NaN for an empty cell; nothing for anything else.
+std::optional<double> number_in(std::string_view cell, char separator) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (cell.empty()) return value;
+  if (cell.front() == '+') cell.remove_prefix(1);
+  std::string with_point;
+  if (separator != ',' && cell.find(',') != std::string_view::npos) {  // decimal comma
+    with_point = cell;
+    std::replace(with_point.begin(), with_point.end(), ',', '.');
+    cell = with_point;
+  }
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+/// Columns of text leave the table.
+void set_aside_texts(CsvTable& table, std::vector<std::string> first_texts) {
+  for (std::size_t i = table.names.size(); i-- > 0;) {
+    if (first_texts[i].empty()) continue;
+    table.texts.emplace(std::move(table.names[i]), std::move(first_texts[i]));
+    table.names.erase(table.names.begin() + static_cast<std::ptrdiff_t>(i));
+    table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 /// Takes the next line off `text`.
 std::string_view next_line(std::string_view& text) {
   const auto end = text.find('\n');
@@ -44,6 +91,13 @@ const std::vector<double>* CsvTable::find(std::string_view name) const {
   return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
 }
 
+Result<const std::vector<double>*> CsvTable::required(std::string_view name, std::string_view source,
+                                                      std::string_view what) const {
+  if (const std::vector<double>* found = find(name)) return found;
+  if (const auto text = texts.find(name); text != texts.end()) return failure(text->second);
+  return failure(fmt::format("{}: no {} {}; it has {}", source, what, name, fmt::join(names, ", ")));
+}
+
 Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   CsvTable table;
@@ -53,7 +107,7 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
   const char separator = separator_of(header);
   const auto cells = [separator](std::string_view line, auto&& visit) {
     while (true) {
-      const auto end = line.find(separator);
+      const auto end = end_of_cell(line, separator);
       if (!visit(trim(line.substr(0, end)))) return;
       if (end == std::string_view::npos) return;
       line.remove_prefix(end + 1);
@@ -73,46 +127,32 @@ Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
     }
   }
   table.columns.resize(table.names.size());
+  std::vector<std::string> first_texts(table.names.size());
   while (!text.empty()) {
     const std::string_view line = next_line(text);
     ++line_number;
     if (trim(line).empty()) continue;
     std::size_t column = 0;
-    std::string problem;
     cells(line, [&](std::string_view cell) {
       if (column >= table.columns.size()) {
         if (ends_with_separator && cell.empty()) return false;
         ++column;
         return false;
       }
-      double value = std::numeric_limits<double>::quiet_NaN();
-      if (!cell.empty()) {
-        if (cell.front() == '+') cell.remove_prefix(1);
-        std::string with_point;
-        if (separator != ',' && cell.find(',') != std::string_view::npos) {  // decimal comma
-          with_point = cell;
-          std::replace(with_point.begin(), with_point.end(), ',', '.');
-          cell = with_point;
-        }
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc{} || end != cell.data() + cell.size()) {
-          std::string shown(cell.substr(0, 40));
-          std::replace_if(
-              shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-          problem = fmt::format("{}:{}: {} is '{}', a number is needed", source, line_number,
-                                table.names[column], shown);
-          return false;
-        }
+      const std::optional<double> value = number_in(cell, separator);
+      if (!value && first_texts[column].empty()) {
+        first_texts[column] = fmt::format("{}:{}: {} is '{}', a number is needed", source, line_number,
+                                          table.names[column], shown(cell));
       }
-      table.columns[column++].push_back(value);
+      table.columns[column++].push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
       return true;
     });
-    if (!problem.empty()) return failure(std::move(problem));
     if (column != table.columns.size()) {
       return failure(fmt::format("{}:{}: {} cells, the header has {}", source, line_number, column,
                                  table.columns.size()));
     }
   }
+  set_aside_texts(table, std::move(first_texts));
   return table;
 }
 

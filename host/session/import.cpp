@@ -44,9 +44,9 @@ Result<ChannelReader> open_channels(const fs::path& file, const ImportMap& map,
   if (!all) return tl::unexpected(all.error());
   return [table = std::move(*all),
           name = file.string()](const ChannelSource& source) -> Result<std::vector<double>> {
-    if (const std::vector<double>* found = table.find(source.from.variable)) return *found;
-    return failure(fmt::format("{}: no channel {}; it has {}", name, source.from.variable,
-                               fmt::join(table.names, ", ")));
+    const auto values = table.required(source.from.variable, name, "channel");
+    if (!values) return tl::unexpected(values.error());
+    return **values;
   };
 }
 

@@ -57,6 +57,7 @@ Result<void> take_columns(Recording& recording, CsvTable table, const std::strin
       }
       return {};
     }
+    if (const auto text = table.texts.find(name); text != table.texts.end()) return failure(text->second);
     if (!required) return {};
     return failure(
         fmt::format("{}:1: no column {}; t_s, y_m and u_V are required, and r_m where a controller is given",

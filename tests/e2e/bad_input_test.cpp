@@ -244,6 +244,42 @@ TEST(BadInput, CommandLinesAreRefused) {
   }
 }
 
+TEST(BadInput, AWordThatIsNoCommandOrOptionIsNamed) {
+  EXPECT_EQ(cartwright({"fly"}).err, "cartwright: there is no command fly; see cartwright --help\n");
+  EXPECT_EQ(cartwright({"device", "fly"}).err,
+            "cartwright: device has no command fly; see cartwright device --help\n");
+  EXPECT_EQ(cartwright({"simulate", "--modle", "a.toml"}).err,
+            "cartwright: simulate has no option --modle; see cartwright simulate --help\n");
+}
+
+TEST(BadInput, AColumnOfNotesIsNoObstacle) {
+  const Scratch scratch;
+  scratch.put("model.toml", kModel);
+  scratch.put("session/session.toml", std::string(kRig) + kRecording);
+  scratch.put("session/step.csv", csv("t_s,r_m,y_m,u_V,note", [](int tick, const std::string& line) {
+                return line + (tick == 700 ? ",\"braked, by hand\"" : ",");
+              }));
+  for (const SessionCommand& command : kSessionCommands) {
+    const Finished finished = cartwright(command.arguments(
+        scratch.text("session"), scratch.text("model.toml"), scratch.text("out_") + command.name));
+    EXPECT_EQ(finished.status, 0) << command.name << ": " << finished.err;
+  }
+}
+
+TEST(BadInput, RecordingsThatDifferByTheirExtensionAreBothEvaluated) {
+  const Scratch scratch;
+  scratch.put("model.toml", kModel);
+  scratch.put("session/session.toml",
+              std::string(kRig) + kRecording + "\n[[recording]]\nfile = \"step.txt\"\n");
+  scratch.put("session/step.csv", csv());
+  scratch.put("session/step.txt", csv());
+  const Finished finished = cartwright({"evaluate", "--model", scratch.text("model.toml"), "--session",
+                                        scratch.text("session"), "--out", scratch.text("out")});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/step.csv.prediction.csv"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/step.txt.prediction.csv"));
+}
+
 TEST(BadInput, AFullDiskLeavesNothingBehind) {
   const Scratch scratch;
   scratch.put("model.toml", kModel);

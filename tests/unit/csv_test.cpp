@@ -53,10 +53,23 @@ TEST(CsvReader, RefusesWithFileLineAndColumn) {
   EXPECT_THAT(refusal("\n1,2\n"), HasSubstr("a.csv:1: no header"));
   EXPECT_THAT(refusal("t_s,t_s\n1,2\n"), HasSubstr("two columns are named t_s"));
   EXPECT_THAT(refusal("t_s,,y_m\n1,2,3\n"), HasSubstr("column 2 has no name"));
-  EXPECT_THAT(refusal("t_s,y_m\n0,1\n1,abc\n"), HasSubstr("a.csv:3: y_m is 'abc'"));
-  EXPECT_THAT(refusal("t_s,y_m\n0,1 2\n"), HasSubstr("a.csv:2: y_m"));
   EXPECT_THAT(refusal("t_s,y_m\n0,1\n\n1\n"), HasSubstr("a.csv:4: 1 cells, the header has 2"));
   EXPECT_THAT(refusal("t_s,y_m\n0,1,2\n"), HasSubstr("a.csv:2: 3 cells"));
+}
+
+TEST(CsvReader, LeavesColumnsOfTextOut) {
+  const CsvTable table = read("t_s,state,y_m,note\n0,1,2,\n1,idle,3,\"so, \"\"so\"\"\"\n");
+  EXPECT_THAT(table.names, ElementsAre("t_s", "y_m"));
+  EXPECT_THAT(table.columns[1], ElementsAre(2, 3));
+  EXPECT_EQ(table.texts.at("state"), "a.csv:3: state is 'idle', a number is needed");
+  EXPECT_THAT(table.texts.at("note"), HasSubstr("a.csv:3: note is 'so, "));
+}
+
+TEST(CsvReader, SaysWhyAColumnIsNotThere) {
+  const CsvTable table = read("t_s,y_m\n0,1\n1,1 2\n");
+  EXPECT_TRUE(table.required("t_s", "a.csv").has_value());
+  EXPECT_EQ(table.required("y_m", "a.csv").error().message, "a.csv:3: y_m is '1 2', a number is needed");
+  EXPECT_EQ(table.required("u_V", "a.csv").error().message, "a.csv: no column u_V; it has t_s");
 }
 
 TEST(CsvReader, EveryMessageIsOneLine) {
