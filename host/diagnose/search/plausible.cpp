@@ -31,16 +31,17 @@ bool inside_its_recording(const Model& model, const Session& session) {
          start_s + 0.5 * duration_s >= r->t_s[settling_rows(session.rig)];
 }
 
-/// Of two masses, not of one and next to nothing: where the smaller one's share is not told from its least,
-/// the coupling is a law for the motor alone.
+/// Of two masses, not of one and next to nothing: where the smaller one's share is told to be hardly more
+/// than its least, the coupling is a law for the motor alone. A share that is not told at all says nothing.
 bool of_two_masses(const Fit& fit) {
   constexpr Parameter kShare = Parameter::coupling_load_share;
   const auto share =
       std::find_if(fit.free.begin(), fit.free.end(), [](const FreeParameter& p) { return p.id == kShare; });
   if (share == fit.free.end()) return true;
-  const double value = fit.model[kShare];
-  const double from_bound = std::min(value - share->lower, share->upper - value);
-  return from_bound > std::min(normal(0.95) * fit.standard_error(kShare), share->lower);
+  if (fit.at_bound(kShare)) return false;
+  const double from_bound = std::min(fit.model[kShare] - share->lower, share->upper - fit.model[kShare]);
+  const double reach = normal(0.95) * fit.standard_error(kShare);
+  return from_bound > reach || from_bound + reach > share->lower;
 }
 
 }  // namespace
