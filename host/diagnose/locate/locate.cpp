@@ -188,14 +188,13 @@ Location locate(const Session& session, const Fit& fit, const Session& alike, co
   });
 
   // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.
-  double& beyond = location.beyond_chance;
-  for (const AxisMap& map : location.axes) {
-    if (!map.low.empty())
-      beyond = std::max(beyond, kStandsOutFromAlike * (map.alike_gain - map.mean()) / (map.bar - map.mean()));
-  }
   for (AxisMap& map : location.axes) {
-    map.bar = map.mean() + beyond * (map.bar - map.mean());
+    if (map.low.empty()) continue;
+    const double chance = map.bar - map.mean();
+    const double beyond = std::max(1.0, kStandsOutFromAlike * (map.alike_gain - map.mean()) / chance);
+    map.bar = map.mean() + beyond * chance;
     for (double& band : map.band_m_per_s2) band *= std::sqrt(beyond);
+    location.beyond_chance = std::max(location.beyond_chance, beyond);
   }
 
   double power = 0;

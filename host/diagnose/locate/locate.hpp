@@ -20,7 +20,7 @@ struct AxisMap {
   std::vector<double> band_m_per_s2;  ///< half width of the simultaneous band
   double gain = 0;                    ///< log-likelihood gained by the whole axis [nats]
   double bar = 0;         ///< what chance alone reaches on one of the axes in 1 of 2000 sessions; more where
-                          ///< a cart that is exactly the model comes near that on any
+                          ///< a cart that is exactly the model comes near that on this one
   double alike_gain = 0;  ///< what such a cart gains [nats]
   double share = 0;       ///< of the disturbance power that the observer had to add
   bool flat() const { return gain <= bar; }
@@ -32,7 +32,7 @@ struct AxisMap {
 
 struct Location {
   std::vector<AxisMap> axes;
-  double beyond_chance = 1;  ///< by which the bars are lifted
+  double beyond_chance = 1;  ///< by which a bar is lifted, most of all axes
   Profile over_way, over_frequency, over_lag;
   double repeat_correlation = 0;  ///< of smoothed errors between repeats; 0 without repeats
   double repeat_z = 0;            ///< that, in standard errors
@@ -40,8 +40,8 @@ struct Location {
   std::array<const Profile*, 3> profiles() const { return {&over_way, &over_frequency, &over_lag}; }
 };
 
-/// `alike`: the same recordings of a cart that is exactly the fit's model. What its own axes gain beyond
-/// chance, most of all of them, lifts all bars.
+/// `alike`: the same recordings of a cart that is exactly the fit's model. What it gains on its own axes
+/// beyond chance lifts their bars.
 Location locate(const Session& session, const Fit& fit, const Session& alike, const FitOptions& options);
 
 }  // namespace cartwright
