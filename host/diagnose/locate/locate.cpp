@@ -97,16 +97,23 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
   return map;
 }
 
-/// What pushes in all bins would gain [nats] on errors that are `alike`'s, relative to the noise of the fit.
-double gain_of(const Session& alike, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
-               const Eigen::VectorXd& errors, double damping) {
+/// What pushes in all bins would gain [nats] on errors of a cart that is exactly the model, relative to the
+/// noise of the fit: its rows sorted by what `observed` saw beside it or beside the recordings.
+double gain_of_alike(const Session& session, const AxisBins& axis, const ObserverGains& gains,
+                     const Basis& basis, const Eigen::VectorXd& errors, double damping) {
   if (axis.edges.size() < 2) return 0;
-  Eigen::MatrixXd columns = columns_of(alike, axis, gains, damping, errors.size());
+  Eigen::MatrixXd columns = columns_of(session, axis, gains, damping, errors.size());
   basis.project_out(columns);
   Eigen::MatrixXd h = columns.transpose() * columns;
   h.diagonal() *= 1 + 1e-9;
   const Eigen::VectorXd g = columns.transpose() * errors;
   return 0.5 * g.dot(h.ldlt().solve(g)) / basis.variance_m2;
+}
+
+/// By how much chance must be exceeded where a cart that is exactly the model gains so much on an axis.
+double beyond_chance(const AxisMap& map, double alike_gain) {
+  if (map.low.empty()) return 1;
+  return std::max(1.0, kStandsOutFromAlike * (alike_gain - map.mean()) / (map.bar - map.mean()));
 }
 
 /// Pairs of repeats have the same physics left out and different noise.
@@ -181,18 +188,22 @@ Location locate(const Session& session, const Fit& fit, const Session& alike, co
   double looks = 0;
   for (const AxisBins& axis : axes) looks += static_cast<double>(axis.edges.size());
   location.axes.resize(axes.size());
+  std::vector<double> coloured(axes.size());
   parallel_for(axes.size(), threads, [&](std::size_t i) {
     const double damping = options.damping_per_s;
     location.axes[i] = map_of(session, axes[i], gains, basis, damping, looks);
-    location.axes[i].alike_gain = gain_of(alike, there.axes[i], gains, basis, errors_of_alike, damping);
+    location.axes[i].alike_gain = gain_of_alike(alike, there.axes[i], gains, basis, errors_of_alike, damping);
+    coloured[i] = gain_of_alike(session, axes[i], gains, basis, errors_of_alike, damping);
   });
 
   // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.
+  // That its errors have colour shows on any axis; that an observer's states follow its errors, on theirs.
+  double anywhere = 1;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    anywhere = std::max(anywhere, beyond_chance(location.axes[i], coloured[i]));
   for (AxisMap& map : location.axes) {
-    if (map.low.empty()) continue;
-    const double chance = map.bar - map.mean();
-    const double beyond = std::max(1.0, kStandsOutFromAlike * (map.alike_gain - map.mean()) / chance);
-    map.bar = map.mean() + beyond * chance;
+    const double beyond = std::max(anywhere, beyond_chance(map, map.alike_gain));
+    map.bar = map.mean() + beyond * (map.bar - map.mean());
     for (double& band : map.band_m_per_s2) band *= std::sqrt(beyond);
     location.beyond_chance = std::max(location.beyond_chance, beyond);
   }
