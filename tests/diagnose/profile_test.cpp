@@ -29,8 +29,7 @@ class Profiles : public testing::Test {
 
   Profile over_way() const { return spatial_frequency_profile(session_, fit_, options_, 2); }
   Profile over_frequency() const {
-    const Session cart = alike(session_, fit_, options_);
-    return frequency_profile(session_, fit_, counted_errors(cart, fit_.model, fit_.noise, options_).error_m);
+    return frequency_profile(session_, fit_, alike(session_, fit_, options_).error_m);
   }
   Profile over_lag() const { return input_lag_profile(session_, fit_); }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "common/model/encoder.hpp"
 #include "common/model/plant.hpp"
@@ -59,17 +60,19 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
   return out;
 }
 
-Session alike(const Session& session, const Fit& fit, const FitOptions& options) {
+Alike alike(const Session& session, const Fit& fit, const FitOptions& options) {
   NoiseSize noise = noise_size(fit, session.rig, options.damping_per_s);
-  Session shaken = surrogate(session, fit.model, noise, 1);
+  const auto with_noise = [&] {
+    Session other = surrogate(session, fit.model, noise, 1);
+    std::vector<double> error_m = counted_errors(other, fit.model, fit.noise, options).error_m;
+    return Alike{std::move(other), std::move(error_m)};
+  };
+  Alike shaken = with_noise();
   if (session.rig.encoder_resolution_m <= 0) return shaken;
   noise.disturbance_m_per_s2 = 0;
-  Session still = surrogate(session, fit.model, noise, 1);
-  const auto unlike = [&](const Session& other) {
-    const std::vector<double> error_m = counted_errors(other, fit.model, fit.noise, options).error_m;
-    return std::abs(rms(error_m) - rms(fit.error_m));
-  };
-  return unlike(still) < unlike(shaken) ? still : shaken;
+  Alike still = with_noise();
+  const auto unlike = [&](const Alike& other) { return std::abs(rms(other.error_m) - rms(fit.error_m)); };
+  return unlike(still) < unlike(shaken) ? std::move(still) : std::move(shaken);
 }
 
 }  // namespace cartwright

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "host/diagnose/fit/fit.hpp"
+#include "host/diagnose/locate/locate.hpp"
 
 namespace cartwright {
 
@@ -22,6 +22,6 @@ Session surrogate(const Session& session, const Model& model, const NoiseSize& n
 /// The experiments of a fit on a cart that is exactly its model, to see what such a cart shows. What a fit
 /// takes for a disturbance may be the rounding of the readings: of a cart with it and one without, the one
 /// whose errors are nearer in size to the fit's.
-Session alike(const Session& session, const Fit& fit, const FitOptions& options);
+Alike alike(const Session& session, const Fit& fit, const FitOptions& options);
 
 }  // namespace cartwright

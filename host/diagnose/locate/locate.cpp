@@ -39,10 +39,24 @@ Observed observed(const Session& session, const Model& model, const ObserverGain
   return out;
 }
 
-/// What a unit push in each bin would add to the errors: a column for each bin.
-Eigen::MatrixXd columns_of(const Session& session, const AxisBins& axis, const ObserverGains& gains,
-                           double damping, Eigen::Index rows) {
-  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(axis.edges.size()) - 1);
+/// A push in each bin of an axis, as what it would add to the errors.
+struct PushesInBins {
+  Eigen::MatrixXd columns;  ///< of unit pushes, less what the model's own numbers explain
+  Eigen::MatrixXd products;
+  Eigen::LDLT<Eigen::MatrixXd> solver;  ///< of `products`, made regular
+
+  /// By how much the best pushes would lower the sum of the squares of errors.
+  double explained_m2(const Eigen::VectorXd& errors) const {
+    const Eigen::VectorXd g = columns.transpose() * errors;
+    return g.dot(solver.solve(g));
+  }
+};
+
+PushesInBins pushes_in_bins(const Session& session, const AxisBins& axis, const ObserverGains& gains,
+                            const Basis& basis, double damping) {
+  PushesInBins pushes;
+  Eigen::MatrixXd& columns = pushes.columns;
+  columns.resize(basis.e.size(), static_cast<Eigen::Index>(axis.edges.size()) - 1);
   const std::size_t skip = settling_rows(session.rig);
   for (Eigen::Index b = 0; b < columns.cols(); ++b) {
     Eigen::Index row = 0;
@@ -55,33 +69,28 @@ Eigen::MatrixXd columns_of(const Session& session, const AxisBins& axis, const O
       }
     }
   }
-  return columns;
+  basis.project_out(columns);
+  pushes.products = columns.transpose() * columns;
+  Eigen::MatrixXd regular = pushes.products;
+  regular.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
+  pushes.solver.compute(regular);
+  return pushes;
 }
 
-AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains& gains, const Basis& basis,
-               double damping, double looks) {
-  AxisMap map;
-  map.axis = axis.axis, map.parity = axis.parity, map.names = axis.names;
-  if (axis.edges.size() < 2) return map;
-  const auto bins = static_cast<Eigen::Index>(axis.edges.size()) - 1;
-  Eigen::MatrixXd columns = columns_of(session, axis, gains, damping, basis.e.size());
-  basis.project_out(columns);
-  Eigen::MatrixXd h = columns.transpose() * columns;
-  const Eigen::VectorXd g = columns.transpose() * basis.e;
+void map_pushes(const AxisBins& axis, const PushesInBins& pushes, const Basis& basis, double looks,
+                AxisMap& map) {
+  const Eigen::Index bins = pushes.columns.cols();
   // What the model's own numbers could do as well (a constant, beside a free constant force) is not shown:
   // pushes are the smallest that explain the errors.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(h);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(pushes.products);
   const double least = kLeastTold * axes.eigenvalues().maxCoeff();
   const Eigen::VectorXd inverse_of_told =
       (axes.eigenvalues().array() > least).select(1 / axes.eigenvalues().array(), 0);
   const Eigen::MatrixXd inverse =
       axes.eigenvectors() * inverse_of_told.asDiagonal() * axes.eigenvectors().transpose();
-  const Eigen::VectorXd x = inverse * g;
-  h.diagonal() *= 1 + 1e-9;  // a bin that the model's own numbers already span
-  const Eigen::LDLT<Eigen::MatrixXd> solver(h);
-  const double explained = g.dot(solver.solve(g));
+  const Eigen::VectorXd x = inverse * (pushes.columns.transpose() * basis.e);
   const double ee = basis.squares_m2;
-  map.gain = basis.gain(std::max(ee - explained, 1e-9 * ee));
+  map.gain = basis.gain(std::max(ee - pushes.explained_m2(basis.e), 1e-9 * ee));
   constexpr double kUpperNormal = 4.0;  // 3e-5 per axis, about a dozen axes: 1 in 2000 sessions
   map.bar = chance_bar(static_cast<double>(bins), kUpperNormal);
   // Simultaneous 95 % band: normal quantile at 0.025/looks, by its asymptotic series.
@@ -94,20 +103,6 @@ AxisMap map_of(const Session& session, const AxisBins& axis, const ObserverGains
     map.push_m_per_s2.push_back(x[b]);
     map.band_m_per_s2.push_back(quantile * std::sqrt(std::max(inverse(b, b), 0.0) * basis.variance_m2));
   }
-  return map;
-}
-
-/// What pushes in all bins would gain [nats] on errors of a cart that is exactly the model, relative to the
-/// noise of the fit: its rows sorted by what `observed` saw beside it or beside the recordings.
-double gain_of_alike(const Session& session, const AxisBins& axis, const ObserverGains& gains,
-                     const Basis& basis, const Eigen::VectorXd& errors, double damping) {
-  if (axis.edges.size() < 2) return 0;
-  Eigen::MatrixXd columns = columns_of(session, axis, gains, damping, errors.size());
-  basis.project_out(columns);
-  Eigen::MatrixXd h = columns.transpose() * columns;
-  h.diagonal() *= 1 + 1e-9;
-  const Eigen::VectorXd g = columns.transpose() * errors;
-  return 0.5 * g.dot(h.ldlt().solve(g)) / basis.variance_m2;
 }
 
 /// By how much chance must be exceeded where a cart that is exactly the model gains so much on an axis.
@@ -171,18 +166,17 @@ std::vector<double> AxisMap::stretch() const {
   return best;
 }
 
-Location locate(const Session& session, const Fit& fit, const Session& alike, const FitOptions& options) {
+Location locate(const Session& session, const Fit& fit, const Alike& alike, const FitOptions& options) {
   Location location;
   const unsigned threads = options.threads;
   const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
   const Observed here = observed(session, fit.model, gains, threads);
-  const Observed there = observed(alike, fit.model, gains, threads);
+  const Observed there = observed(alike.session, fit.model, gains, threads);
   const std::vector<AxisBins>& axes = here.axes;
 
   const Basis basis = basis_of(fit, options.outlier_m);
-  const std::vector<double> alike_m = counted_errors(alike, fit.model, fit.noise, options).error_m;
-  Eigen::VectorXd errors_of_alike =
-      Eigen::Map<const Eigen::VectorXd>(alike_m.data(), static_cast<Eigen::Index>(alike_m.size()));
+  Eigen::VectorXd errors_of_alike = Eigen::Map<const Eigen::VectorXd>(
+      alike.error_m.data(), static_cast<Eigen::Index>(alike.error_m.size()));
   basis.project_out(errors_of_alike);
 
   double looks = 0;
@@ -190,10 +184,19 @@ Location locate(const Session& session, const Fit& fit, const Session& alike, co
   location.axes.resize(axes.size());
   std::vector<double> coloured(axes.size());
   parallel_for(axes.size(), threads, [&](std::size_t i) {
+    AxisMap& map = location.axes[i];
+    map.axis = axes[i].axis, map.parity = axes[i].parity, map.names = axes[i].names;
+    const auto gain_of_alike = [&](const PushesInBins& pushes) {
+      return 0.5 * pushes.explained_m2(errors_of_alike) / basis.variance_m2;
+    };
     const double damping = options.damping_per_s;
-    location.axes[i] = map_of(session, axes[i], gains, basis, damping, looks);
-    location.axes[i].alike_gain = gain_of_alike(alike, there.axes[i], gains, basis, errors_of_alike, damping);
-    coloured[i] = gain_of_alike(session, axes[i], gains, basis, errors_of_alike, damping);
+    if (axes[i].edges.size() >= 2) {
+      const PushesInBins pushes = pushes_in_bins(session, axes[i], gains, basis, damping);
+      map_pushes(axes[i], pushes, basis, looks, map);
+      coloured[i] = gain_of_alike(pushes);
+    }
+    if (there.axes[i].edges.size() >= 2)
+      map.alike_gain = gain_of_alike(pushes_in_bins(alike.session, there.axes[i], gains, basis, damping));
   });
 
   // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.
@@ -225,7 +228,7 @@ Location locate(const Session& session, const Fit& fit, const Session& alike, co
     map.share = power > 0 && !map.flat() ? std::min(1.0, explained / power) : 0;
   }
   location.over_way = spatial_frequency_profile(session, fit, options, threads);
-  location.over_frequency = frequency_profile(session, fit, alike_m);
+  location.over_frequency = frequency_profile(session, fit, alike.error_m);
   location.over_lag = input_lag_profile(session, fit);
   compare_repeats(session, fit, location);
   return location;

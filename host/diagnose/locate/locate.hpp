@@ -20,8 +20,8 @@ struct AxisMap {
   std::vector<double> band_m_per_s2;  ///< half width of the simultaneous band
   double gain = 0;                    ///< log-likelihood gained by the whole axis [nats]
   double bar = 0;         ///< what chance alone reaches on one of the axes in 1 of 2000 sessions; more where
-                          ///< a cart that is exactly the model comes near that on this one
-  double alike_gain = 0;  ///< what such a cart gains [nats]
+                          ///< a cart that is exactly the model comes near that
+  double alike_gain = 0;  ///< what such a cart gains on an axis of its own [nats]
   double share = 0;       ///< of the disturbance power that the observer had to add
   bool flat() const { return gain <= bar; }
   /// What white errors gain on average.
@@ -40,8 +40,14 @@ struct Location {
   std::array<const Profile*, 3> profiles() const { return {&over_way, &over_frequency, &over_lag}; }
 };
 
-/// `alike`: the same recordings of a cart that is exactly the fit's model. What it gains on its own axes
-/// beyond chance lifts their bars.
-Location locate(const Session& session, const Fit& fit, const Session& alike, const FitOptions& options);
+/// The recordings of a session by a cart that is exactly a fit's model, and what the fit's errors are there.
+struct Alike {
+  Session session;
+  std::vector<double> error_m;
+};
+
+/// What the errors of `alike` gain beyond chance along any axis of the session lifts all bars; what they gain
+/// along an axis of its own, that axis's.
+Location locate(const Session& session, const Fit& fit, const Alike& alike, const FitOptions& options);
 
 }  // namespace cartwright
