@@ -24,7 +24,8 @@ ordered_json document_of(const std::vector<ParameterEstimate>& estimates,
 }
 
 std::string interval_of(const Estimate& estimate) {
-  return estimate.has_interval() ? fmt::format("   [{:.6g}, {:.6g}]", estimate.low, estimate.high) : "";
+  return estimate.has_interval() ? fmt::format("   [{:.6g}, {:.6g}]", estimate.low, estimate.high)
+                                 : "   no interval";
 }
 
 void print_forces(const std::vector<ForceEstimate>& forces) {

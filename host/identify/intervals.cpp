@@ -132,6 +132,42 @@ bool in_null_space(const Linear& linear, Index column) {
          linear.null_directions.row(column).cwiseAbs().maxCoeff() > kNotable;
 }
 
+/// The number without which another means nothing: where a spring may have no stiffness, its neutral position
+/// is anything.
+std::optional<Parameter> size_behind(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::exponential_alpha2:
+      return Parameter::exponential_alpha1;
+    case Parameter::stribeck_speed:
+      return Parameter::stribeck_excess;
+    case Parameter::spot_centre:
+    case Parameter::spot_width:
+      return Parameter::spot_peak;
+    case Parameter::cogging_period:
+    case Parameter::cogging_phase:
+      return Parameter::cogging_amplitude;
+    case Parameter::spring_neutral:
+      return Parameter::spring_stiffness;
+    case Parameter::heating_time_constant:
+      return Parameter::heating_gain_loss;
+    default:
+      return {};
+  }
+}
+
+/// Takes the intervals from numbers whose size may be zero.
+void open_what_means_nothing(std::vector<ParameterEstimate>& estimates) {
+  for (ParameterEstimate& one : estimates) {
+    const auto size = size_behind(one.parameter);
+    if (!size) continue;
+    const auto found = std::find_if(estimates.begin(), estimates.end(),
+                                    [&](const ParameterEstimate& other) { return other.parameter == *size; });
+    if (found == estimates.end()) continue;
+    const Estimate& behind = found->estimate;
+    if (!behind.has_interval() || (behind.low <= 0 && behind.high >= 0)) one.estimate = {one.estimate.value};
+  }
+}
+
 bool fixed_by_other(const TermSet& terms, Parameter parameter) {
   if (parameter == Parameter::spring_neutral) return terms.has(Term::constant_force);
   if (parameter == Parameter::constant_acceleration) return terms.has(Term::cable_spring);
@@ -179,12 +215,14 @@ void add_estimates(const Problem& problem, const TermSet& terms, const Linear& l
     const ParameterInfo& known = info(found.parameter);
     if (!separable) out.not_separable.push_back(found.parameter);
     const double width = widths.size() > 0 ? widths[static_cast<Index>(i)] : std::nan("");
-    if (separable && std::isfinite(width)) {
+    // A width of zero: nothing in the data moves with this number (a limit that is never reached).
+    if (separable && width > 0 && std::isfinite(width)) {
       found.estimate.low = std::max(known.lower, found.estimate.value - width);
       found.estimate.high = std::min(known.upper, found.estimate.value + width);
     }
     out.estimates.push_back(found);
   }
+  open_what_means_nothing(out.estimates);
   for (std::size_t i = terms.parameters().size(); i < quantities.size(); ++i) {
     const Quantity& force = quantities[i];
     const double value = force.of(solution.model);

@@ -39,6 +39,13 @@ const std::vector<TermColumns>& term_columns() {
   return table;
 }
 
+/// One wave of the cogging is fitted; the diagnosis finds further ones.
+bool is_further_wave(Parameter parameter) {
+  return std::any_of(kCoggingWaves.begin() + 1, kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
+    return parameter == wave.amplitude || parameter == wave.period || parameter == wave.phase;
+  });
+}
+
 double shape_of(const Model& shape, Term term, Parameter parameter, double absent) {
   return shape.has(term) ? shape[parameter] : absent;
 }
@@ -107,7 +114,8 @@ Result<TermSet> TermSet::create(const std::vector<Term>& terms) {
   }
   set.parameters_.push_back(Parameter::voltage_gain);
   for (const ParameterInfo& parameter : cartwright::parameters()) {
-    if (parameter.term && set.has(*parameter.term)) set.parameters_.push_back(parameter.id);
+    if (parameter.term && set.has(*parameter.term) && !is_further_wave(parameter.id))
+      set.parameters_.push_back(parameter.id);
   }
   return set;
 }

@@ -75,13 +75,21 @@ void set_aside_texts(CsvTable& table, std::vector<std::string> first_texts) {
   }
 }
 
-/// Takes the next line off `text`.
+/// Takes the next line off `text`; lines end with LF, CR LF or CR.
 std::string_view next_line(std::string_view& text) {
-  const auto end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  const auto end = text.find_first_of("\r\n");
+  const std::string_view line = text.substr(0, end);
+  if (end == std::string_view::npos) {
+    text = {};
+  } else {
+    text.remove_prefix(end + (text.substr(end).starts_with("\r\n") ? 2 : 1));
+  }
   return line;
+}
+
+/// UTF-16 has a zero byte beside every plain letter.
+bool is_no_text(std::string_view text) {
+  return text.substr(0, 200).find('\0') != std::string_view::npos;
 }
 
 }  // namespace
@@ -100,6 +108,8 @@ Result<const std::vector<double>*> CsvTable::required(std::string_view name, std
 
 Result<CsvTable> parse_csv(std::string_view text, std::string_view source) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  if (is_no_text(text))
+    return failure(fmt::format("{}:1: this is UTF-16 or no text at all; save it as CSV in UTF-8", source));
   CsvTable table;
   std::size_t line_number = 1;
   std::string_view header = next_line(text);

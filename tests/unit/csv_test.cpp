@@ -30,6 +30,7 @@ TEST(CsvReader, TakesWhatForeignProgramsWrite) {
       "t_s\ty_m\n0\t1\n0.5\t-0.002",
       "\"t_s\", \"y_m\"\n 0 , +1\n\n0.50,\"-2e-3\"\n\n",
       "t_s,y_m,\n0,1,\n0.5,-2e-3,\n",
+      "t_s,y_m\r0,1\r0.5,-2e-3\r",
   };
   for (const std::string_view text : texts) {
     const CsvTable table = read(text);
@@ -55,6 +56,8 @@ TEST(CsvReader, RefusesWithFileLineAndColumn) {
   EXPECT_THAT(refusal("t_s,,y_m\n1,2,3\n"), HasSubstr("column 2 has no name"));
   EXPECT_THAT(refusal("t_s,y_m\n0,1\n\n1\n"), HasSubstr("a.csv:4: 1 cells, the header has 2"));
   EXPECT_THAT(refusal("t_s,y_m\n0,1,2\n"), HasSubstr("a.csv:2: 3 cells"));
+  EXPECT_THAT(refusal("t_s,y_m\r\n0,1\r\r\n1\r\n"), HasSubstr("a.csv:4: 1 cells"));
+  EXPECT_THAT(refusal(std::string_view("\xff\xfet\0_\0s\0,\0y\0", 12)), HasSubstr("a.csv:1: this is UTF-16"));
 }
 
 TEST(CsvReader, LeavesColumnsOfTextOut) {

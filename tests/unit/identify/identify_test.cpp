@@ -145,6 +145,40 @@ TEST(Identify, WhatOnlyActsTogetherIsNotSeparated) {
   EXPECT_NEAR(result.model[Parameter::constant_acceleration], 6 * 0.03, 0.02);
 }
 
+TEST(Identify, NamesOneWaveOfTheCogging) {
+  const Model truth = cart()
+                          .set(Parameter::cogging_amplitude, 0.8)
+                          .set(Parameter::cogging_period, 0.016)
+                          .set(Parameter::cogging_phase, 1.0);
+  std::vector<Parameter> names;
+  for (const ParameterEstimate& found :
+       fitted(SimulatedSession(truth).add_usual(1).get(), {Term::coulomb_friction, Term::cogging}).estimates)
+    names.push_back(found.parameter);
+  EXPECT_THAT(names, testing::ElementsAre(Parameter::voltage_gain, Parameter::coulomb_level,
+                                          Parameter::cogging_amplitude, Parameter::cogging_period,
+                                          Parameter::cogging_phase));
+}
+
+TEST(Identify, ALimitThatIsNeverReachedHasNoInterval) {
+  const Identification result =
+      fitted(SimulatedSession(cart()).add_usual(2).get(),
+             {Term::viscous_friction, Term::coulomb_friction, Term::voltage_saturation});
+  EXPECT_FALSE(of(result, Parameter::saturation_limit).estimate.has_interval());
+  EXPECT_TRUE(of(result, Parameter::coulomb_level).estimate.has_interval());
+}
+
+TEST(Identify, WhatMayBeZeroHasNoShape) {
+  // There is no spot on this rail, so it lies nowhere and has no width.
+  const Identification result =
+      fitted(SimulatedSession(cart()).add_usual(2).get(),
+             {Term::viscous_friction, Term::coulomb_friction, Term::position_dependent_friction});
+  const Estimate peak = of(result, Parameter::spot_peak).estimate;
+  ASSERT_TRUE(peak.has_interval());
+  EXPECT_LE(peak.low, 0);
+  EXPECT_FALSE(of(result, Parameter::spot_centre).estimate.has_interval());
+  EXPECT_FALSE(of(result, Parameter::spot_width).estimate.has_interval());
+}
+
 TEST(Identify, OneDirectionCannotTellFrictionFromAForce) {
   SimulatedSession simulated{cart()};
   simulated.rig().travel_m = {-10, 10};
