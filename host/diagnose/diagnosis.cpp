@@ -29,10 +29,10 @@ using P = Parameter;
 /// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
 constexpr double kLeastParameterChange = 0.08;
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
-/// the windows, more than a fifth is still there; or when most of the likelihood to be gained still is.
+/// the windows, more than a fifth is still there; or two fifths of the likelihood to be gained.
 constexpr double kMostLeftOfWindows = 0.2;
 constexpr double kShowsMismatch = 1.5;  // window error over noise floor
-constexpr double kMostLeftOfLikelihood = 0.5;
+constexpr double kMostLeftOfLikelihood = 0.4;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;

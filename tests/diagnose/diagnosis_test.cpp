@@ -145,6 +145,17 @@ TEST_P(FindsNothingWhereThereIsNothing, OnReadingsThatAreOnlyRounded) {
   EXPECT_TRUE(d.effects.empty());
 }
 
+/// Friction hides the disturbance of a cart that rests, and its readings say the same again and again.
+TEST_P(FindsNothingWhereThereIsNothing, OnPositioningMoves) {
+  IndependentCart cart;
+  cart.seed = GetParam();
+  cart.count_m = std::array{2.275e-5, 1e-4, 5e-4}[GetParam() % 3];
+  cart.reading_noise_counts = 0, cart.disturbance_m_per_s2 = 0.1;
+  const Diagnosis d = diagnose(test::moves(cart), nominal(1.93, 4.9, cart.coulomb_m_per_s2 * 1.03));
+  EXPECT_EQ(name(d.verdict), "no_mismatch");
+  EXPECT_TRUE(d.effects.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, FindsNothingWhereThereIsNothing, testing::Range<std::uint64_t>(1, 7));
 
 TEST(Diagnosis, ValuesThatAreOffAreNoMissingPhysics) {

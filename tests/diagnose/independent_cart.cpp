@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kDuration_s = 4.0;
 constexpr double kEulerStep_s = 2e-5;
-constexpr double kReadingNoise_counts = 0.22;
-constexpr double kDisturbance_m_per_s2 = 0.02;
 constexpr double kDisturbanceTime_s = 0.005;
 
 double multisine(double t_s, double least_hz, double most_hz, int tones, double amplitude) {
@@ -22,17 +20,26 @@ double multisine(double t_s, double least_hz, double most_hz, int tones, double 
   return amplitude * sum / std::sqrt(tones);
 }
 
+/// Moves of 0.4 s from place to place, and 0.8 s of rest after each.
+double positioned(double t_s, double phase) {
+  constexpr double kEvery_s = 1.2, kMove_s = 0.4;
+  const auto place_m = [phase](double n) { return n == 0 ? 0 : 0.12 * std::sin(2.4 * n * n + phase); };
+  const double n = std::floor(t_s / kEvery_s), s = std::min((t_s - n * kEvery_s) / kMove_s, 1.0);
+  return place_m(n) + (place_m(n + 1) - place_m(n)) * s * s * s * (10 - 15 * s + 6 * s * s);
+}
+
 Recording reference(const std::string& file, const std::string& experiment, ControllerSpec controller,
                     double period_s, std::mt19937_64& random) {
   std::uniform_real_distribution<double> late(8e-6, 16e-6);
   Recording r;
   r.file = file, r.experiment = experiment, r.controller = controller;
-  const double phase = file.back();  // tracks differ by their letter
+  const double phase = file.back();  // tracks and moves differ by their letter
   for (int k = 0; k * period_s < kDuration_s; ++k) {
     const double t = k * period_s + late(random);
     r.t_s.push_back(t);
     double reference_m = 0, added_V = 0;
     if (experiment == "step") reference_m = std::fmod(t, 2.0) < 1.0 ? 0.1 : 0.0;
+    if (experiment == "move") reference_m = positioned(t, phase);
     if (experiment == "track") reference_m = multisine(t + phase, 0.2, 2.5, 6, 0.06);
     if (experiment == "dither") added_V = multisine(t, 0.5, 40, 14, 2.5);
     r.r_m.push_back(reference_m);
@@ -49,7 +56,7 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
   std::vector<double> sent;
   for (std::size_t k = 0; k < r.size(); ++k) {
     const double read =
-        y + cart.encoder_error_m(y) + cart.noise * kReadingNoise_counts * cart.count_m * normal(random);
+        y + cart.encoder_error_m(y) + cart.noise * cart.reading_noise_counts * cart.count_m * normal(random);
     const double measured = cart.count_m * std::round(read / cart.count_m);
     const double e = r.r_m[k] - measured;
     double u = r.added_V(k);
@@ -73,8 +80,8 @@ void run(const IndependentCart& cart, const Rig& rig, Recording& r, std::mt19937
     const int steps = static_cast<int>(std::round((r.t_s[k + 1] - r.t_s[k]) / kEulerStep_s));
     const double h = (r.t_s[k + 1] - r.t_s[k]) / steps;
     const double fade = std::exp(-rig.period_s() / kDisturbanceTime_s);
-    disturbance =
-        fade * disturbance + cart.noise * kDisturbance_m_per_s2 * std::sqrt(1 - fade * fade) * normal(random);
+    disturbance = fade * disturbance +
+                  cart.noise * cart.disturbance_m_per_s2 * std::sqrt(1 - fade * fade) * normal(random);
     for (int i = 0; i < steps; ++i) {
       const double t = r.t_s[k] + i * h;
       const double level = cart.coulomb_m_per_s2 + cart.extra_level(t, y, v, held);
@@ -111,6 +118,19 @@ Session battery(const IndependentCart& cart) {
     Recording& r = session.recordings.back();
     if (experiment == "step" && file != "step_1.csv") r.repeat_of = "step_1.csv";
     run(cart, session.rig, r, random);
+  }
+  return session;
+}
+
+Session moves(const IndependentCart& cart) {
+  std::mt19937_64 random(cart.seed);
+  Session session;
+  session.rig.encoder_resolution_m = cart.count_m;
+  session.rig.sample_rate_hz = cart.sample_rate_hz;
+  for (const char* file : {"move_a", "move_b", "move_c", "move_d", "move_e"}) {
+    session.recordings.push_back(
+        reference(file, "move", PdGains{60, 1, 50, false}, session.rig.period_s(), random));
+    run(cart, session.rig, session.recordings.back(), random);
   }
   return session;
 }

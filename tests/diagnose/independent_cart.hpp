@@ -22,7 +22,8 @@ struct IndependentCart {
   std::function<double(double y_m)> encoder_error_m = [](double) { return 0.0; };
   int delay_ticks = 0;
   double sample_rate_hz = 1000, count_m = 2.275e-5;
-  double noise = 1;    ///< share of the reading noise and the disturbance; without, readings are only rounded
+  double reading_noise_counts = 0.22, disturbance_m_per_s2 = 0.02;
+  double noise = 1;    ///< share of these two; without, readings are only rounded
   double start_m = 0;  ///< between two counts it is off for the diagnosis
   std::uint64_t seed = 1;
 };
@@ -30,6 +31,9 @@ struct IndependentCart {
 /// A short battery on that cart: three repeats of a step, two relays, two tracks and a dither, 4 s each, with
 /// an encoder that rounds, its noise, a small coloured disturbance and jittering ticks.
 Session battery(const IndependentCart& cart);
+
+/// Five recordings of positioning moves, the cart at rest two thirds of the time.
+Session moves(const IndependentCart& cart);
 
 /// What an engineer would have of it: values a few per cent off.
 Model nominal(double gain_m_per_s2_V = 1.87, double viscous_per_s = 5.2, double coulomb_m_per_s2 = 0.41);

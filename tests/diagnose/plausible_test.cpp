@@ -40,6 +40,7 @@ TEST(Plausible, ACouplingIsOfTwoMasses) {
   EXPECT_TRUE(coupling(0.965, 0.001)) << "told from it";
   EXPECT_TRUE(coupling(0.8, 0.3)) << "that little is known of a share says nothing against it";
   EXPECT_TRUE(coupling(0.9699, 0.3)) << "wherever a fit left it";
+  EXPECT_TRUE(coupling(0.97, 0.3)) << "even at its bound";
 }
 
 /// An encoder that turns so many radii off its own axis, on a wheel of a 60 mm circumference.

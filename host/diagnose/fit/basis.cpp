@@ -14,14 +14,13 @@ Basis basis_of(const Fit& fit, double outlier_m) {
   basis.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, fit.jacobian.cols());
   basis.project_out(basis.e);
   basis.least_mean_square_m2 = fit.least_mean_square_m2;
+  basis.rows = fit.rows;
   basis.squares_m2 = basis.e.squaredNorm();
-  basis.variance_m2 =
-      noise_variance_m2(basis.squares_m2, static_cast<double>(rows), basis.least_mean_square_m2);
+  basis.variance_m2 = noise_variance_m2(basis.squares_m2, basis.rows, basis.least_mean_square_m2);
   return basis;
 }
 
 double Basis::gain(double left_m2) const {
-  const auto rows = static_cast<double>(e.size());
   return log_likelihood(left_m2, rows, least_mean_square_m2) -
          log_likelihood(squares_m2, rows, least_mean_square_m2);
 }
@@ -29,7 +28,10 @@ double Basis::gain(double left_m2) const {
 double robust_size(const Fit& fit) {
   std::vector<double> sizes;
   sizes.reserve(fit.error_m.size());
-  for (const double e : fit.error_m) sizes.push_back(std::abs(e));
+  for (const double e : fit.error_m) {
+    if (e != 0) sizes.push_back(std::abs(e));  // of a cart at rest they are zero
+  }
+  if (sizes.empty()) return std::sqrt(fit.least_mean_square_m2);
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return std::max(1.4826 * *middle, std::sqrt(fit.least_mean_square_m2));

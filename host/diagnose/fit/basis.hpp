@@ -11,6 +11,7 @@ namespace cartwright {
 struct Basis {
   Eigen::MatrixXd q;       ///< orthonormal columns that span the fit's Jacobian
   Eigen::VectorXd e;       ///< counted errors, outliers clipped, less what `q` explains [m]
+  double rows = 0;         ///< that count (Fit::rows)
   double squares_m2 = 0;   ///< sum of the squares of `e`
   double variance_m2 = 0;  ///< mean square of `e`, no less than rounding leaves
   double least_mean_square_m2 = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/diagnose/fit/block_covariance.hpp"
+#include "host/diagnose/observe/rest.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
@@ -175,10 +176,10 @@ class Fitter {
     result.noise = at.noise;
     result.free = free_;
     result.log_likelihood = at.value;
-    result.rows = e.size();
+    result.rows = at.errors.rows;
     result.least_mean_square_m2 = at.errors.least_mean_square_m2;
-    result.error_rms_m = std::sqrt(noise_variance_m2(
-        sum_of(e, options_.outlier_m), static_cast<double>(e.size()), result.least_mean_square_m2));
+    result.error_rms_m =
+        std::sqrt(noise_variance_m2(sum_of(e, options_.outlier_m), result.rows, result.least_mean_square_m2));
     result.converged = converged;
     const Eigen::MatrixXd columns =
         options_.covariance ? jacobian(at) : Eigen::MatrixXd(static_cast<Eigen::Index>(e.size()), 0);
@@ -259,14 +260,14 @@ double log_likelihood(double sum, double rows, double least_mean_square) {
 }
 
 double log_likelihood(const CountedErrors& errors, double outlier) {
-  return log_likelihood(sum_of(errors.error_m, outlier), static_cast<double>(errors.error_m.size()),
-                        errors.least_mean_square_m2);
+  return log_likelihood(sum_of(errors.error_m, outlier), errors.rows, errors.least_mean_square_m2);
 }
 
 CountedErrors counted_errors(const Session& session, const Model& model, const NoiseModel& noise,
                              const FitOptions& options) {
   std::vector<double> all;
-  double log_spread = 0;
+  double log_spread = 0, counted = 0;
+  const double half_count = 0.5 * session.rig.encoder_resolution_m;
   std::size_t rows = 0;
   for (const Recording& recording : session.recordings) rows += recording.size();
   all.reserve(rows);
@@ -278,8 +279,16 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   parallel_for(observations.size(), options.threads, [&](std::size_t n) {
     observations[n] = observe(model, gains, session.rig, session.recordings[n], observer);
   });
-  for (const Observation& seen : observations) {
+  for (std::size_t n = 0; n < observations.size(); ++n) {
+    const Observation& seen = observations[n];
+    const std::vector<bool> rests = rows_at_rest(session.rig, session.recordings[n]);
     for (std::size_t k = skip; k < seen.error_m.size(); ++k) {
+      if (rests[k]) {  // the reading is no nearer than that
+        const double e = seen.error_m[k];
+        all.push_back(e - std::clamp(e, -half_count, half_count));
+        continue;
+      }
+      ++counted;
       if (seen.spread.empty()) {
         all.push_back(seen.error_m[k]);
       } else {
@@ -291,12 +300,12 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   double variance_ratio = gains.settled.error_variance_ratio;
   // Errors of uneven spread count by it; times its geometric mean, so that log L counts sum(log spread) too.
   if (log_spread != 0) {
-    const double mean = std::exp(log_spread / static_cast<double>(all.size()));
+    const double mean = std::exp(log_spread / std::max(counted, 1.0));
     for (double& e : all) e *= mean;
     variance_ratio = mean * mean;
   }
   const double count = session.rig.encoder_resolution_m;
-  return {std::move(all), variance_ratio * count * count / 12};
+  return {std::move(all), std::max(counted, 1.0), variance_ratio * count * count / 12};
 }
 
 NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options) {

@@ -36,7 +36,8 @@ struct FitOptions {
 ///
 /// with the noise size v concentrated out, but never below what rounding the readings leaves: a cart that
 /// stands is read without any error, and readings that are trusted for it make the rest of the recording
-/// sure of anything. `covariance` is that of block_covariance.hpp over blocks of time, repeats taken
+/// sure of anything. Rows of a cart at rest (rest.hpp) are not among the N; what their errors exceed half a
+/// count by adds to S. `covariance` is that of block_covariance.hpp over blocks of time, repeats taken
 /// together: it stays honest when errors are coloured or the encoder's steps make them uneven.
 struct Fit {
   Model model;
@@ -45,7 +46,7 @@ struct Fit {
   double log_likelihood = 0;
   double error_rms_m = 0;             ///< sqrt(v)
   double least_mean_square_m2 = 0;    ///< v_min
-  std::size_t rows = 0;               ///< errors counted
+  double rows = 0;                    ///< errors counted, but for those of a cart at rest
   std::vector<double> error_m;        ///< all counted errors, recordings in order
   std::vector<double> block_loss_m2;  ///< sum of rho(e) per block, in session order
   Eigen::MatrixXd jacobian;           ///< de/dp of the free parameters, a row per counted error
@@ -79,6 +80,7 @@ NoiseModel search_noise(const Session& session, const Model& model, const FitOpt
 
 struct CountedErrors {
   std::vector<double> error_m;  ///< recordings in order
+  double rows = 0;              ///< that tell more than that the cart rests (rest.hpp)
   /// What rounding alone leaves, q^2 / 12 times the error variance ratio.
   double least_mean_square_m2 = 0;
 };

@@ -7,6 +7,7 @@
 #include "host/diagnose/fit/basis.hpp"
 #include "host/diagnose/fit/influence.hpp"
 #include "host/diagnose/locate/axes.hpp"
+#include "host/diagnose/observe/rest.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
@@ -58,6 +59,8 @@ PushesInBins pushes_in_bins(const Session& session, const AxisBins& axis, const 
   Eigen::MatrixXd& columns = pushes.columns;
   columns.resize(basis.e.size(), static_cast<Eigen::Index>(axis.edges.size()) - 1);
   const std::size_t skip = settling_rows(session.rig);
+  std::vector<std::vector<bool>> rests;
+  for (const Recording& r : session.recordings) rests.push_back(rows_at_rest(session.rig, r));
   for (Eigen::Index b = 0; b < columns.cols(); ++b) {
     Eigen::Index row = 0;
     for (std::size_t n = 0; n < session.recordings.size(); ++n) {
@@ -65,7 +68,7 @@ PushesInBins pushes_in_bins(const Session& session, const AxisBins& axis, const 
       for (std::size_t k = 1; k < session.recordings[n].size(); ++k) {
         const double push = axis.bin[n][k] == b ? axis.direction[n][k] : 0.0;
         const double e = influence.step(k, push, 0);
-        if (k >= skip) columns(row++, b) = e;
+        if (k >= skip) columns(row++, b) = rests[n][k] ? 0 : e;
       }
     }
   }
@@ -109,6 +112,19 @@ void map_pushes(const AxisBins& axis, const PushesInBins& pushes, const Basis& b
 double beyond_chance(const AxisMap& map, double alike_gain) {
   if (map.low.empty()) return 1;
   return std::max(1.0, kStandsOutFromAlike * (alike_gain - map.mean()) / (map.bar - map.mean()));
+}
+
+/// How many times what chance gains on average such a cart gains, on the middle one of its axes: errors that
+/// have colour do it on most, states that follow errors on one or two.
+double dispersion_of_alike(const std::vector<AxisMap>& axes) {
+  std::vector<double> times;
+  for (const AxisMap& map : axes) {
+    if (!map.low.empty()) times.push_back(map.alike_gain / map.mean());
+  }
+  if (times.empty()) return 1;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
 }
 
 /// Pairs of repeats have the same physics left out and different noise.
@@ -201,7 +217,7 @@ Location locate(const Session& session, const Fit& fit, const Alike& alike, cons
 
   // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.
   // That its errors have colour shows on any axis; that an observer's states follow its errors, on theirs.
-  double anywhere = 1;
+  double anywhere = std::max(1.0, dispersion_of_alike(location.axes));
   for (std::size_t i = 0; i < axes.size(); ++i)
     anywhere = std::max(anywhere, beyond_chance(location.axes[i], coloured[i]));
   for (AxisMap& map : location.axes) {

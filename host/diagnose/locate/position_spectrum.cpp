@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/diagnose/fit/influence.hpp"
+#include "host/diagnose/observe/rest.hpp"
 #include "host/parallel.hpp"
 
 namespace cartwright {
@@ -51,6 +52,7 @@ class WaveColumns {
     keep.keep_states = true;
     for (const Recording& r : session.recordings)
       velocity_.push_back(observe(base.model, gains_, session.rig, r, keep).velocity_m_per_s);
+    for (const Recording& r : session.recordings) rests_.push_back(rows_at_rest(session.rig, r));
   }
 
   /// Sine and cosine of a push and, with four lanes, of the reading.
@@ -71,7 +73,12 @@ class WaveColumns {
         push[1] = stuck ? 0 : wave.cosine[at - 1];
         if constexpr (kLanes == 4) reading[2] = wave.sine[at], reading[3] = wave.cosine[at];
         const Lanes e = influences.step(k, push, reading);
-        if (k >= skip) columns.row(row++) = e.matrix().transpose();
+        if (k < skip) continue;
+        if (rests_[n][k]) {
+          columns.row(row++).setZero();
+        } else {
+          columns.row(row++) = e.matrix().transpose();
+        }
       }
       first += rows;
     }
@@ -82,6 +89,7 @@ class WaveColumns {
   ObserverGains gains_;
   double damping_per_s_;
   std::vector<std::vector<double>> velocity_;
+  std::vector<std::vector<bool>> rests_;
 };
 
 /// The best multiples of two columns that have been projected out of the basis.

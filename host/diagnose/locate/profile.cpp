@@ -112,8 +112,7 @@ Profile spatial_frequency_profile(const Session& session, const Fit& fit, const 
   }
   set_bars(profile);
   if (profile.value.empty()) return profile;
-  profile.share =
-      1 - std::exp(-2 * profile.value[profile.strongest()] / static_cast<double>(fit.error_m.size()));
+  profile.share = 1 - std::exp(-2 * profile.value[profile.strongest()] / fit.rows);
   return profile;
 }
 
@@ -138,7 +137,7 @@ Profile frequency_profile(const Session& session, const Fit& fit, const std::vec
   set_bars(profile);
   const double beyond = std::max(1.0, kStandsOutFromAlike * most_of_alike / profile.bar);
   profile.band *= beyond, profile.bar *= beyond;
-  profile.share = std::min(1.0, 2 * most_power / static_cast<double>(fit.error_m.size()));
+  profile.share = std::min(1.0, 2 * most_power / fit.rows);
   return profile;
 }
 

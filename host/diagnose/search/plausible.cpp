@@ -38,7 +38,6 @@ bool of_two_masses(const Fit& fit) {
   const auto share =
       std::find_if(fit.free.begin(), fit.free.end(), [](const FreeParameter& p) { return p.id == kShare; });
   if (share == fit.free.end()) return true;
-  if (fit.at_bound(kShare)) return false;
   const double from_bound = std::min(fit.model[kShare] - share->lower, share->upper - fit.model[kShare]);
   const double reach = normal(0.95) * fit.standard_error(kShare);
   return from_bound > reach || from_bound + reach > share->lower;
