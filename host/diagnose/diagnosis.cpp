@@ -28,6 +28,7 @@ using P = Parameter;
 
 /// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
 constexpr double kLeastParameterChange = 0.08;
+constexpr double kSureOfChange = 0.997;  // of three numbers or so one is off by chance in 100 sessions
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or two fifths of the likelihood to be gained.
 constexpr double kMostLeftOfWindows = 0.2;
@@ -208,7 +209,7 @@ class Diagnostician {
     return std::any_of(fit.free.begin(), fit.free.end(), [&](const FreeParameter& p) {
       const double change = std::abs(fit.model[p.id] - nominal_[p.id]);
       return relative_change(nominal_[p.id], fit.model[p.id]) > kLeastParameterChange &&
-             change > normal(0.95) * fit.standard_error(p.id);
+             change > normal(kSureOfChange) * fit.standard_error(p.id);
     });
   }
 
