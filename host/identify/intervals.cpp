@@ -201,7 +201,11 @@ void add_estimates(const Problem& problem, const TermSet& terms, const Linear& l
   }
   if (widths.size() > 0) {
     const VectorXd shift = window_shift(quantities, problem, terms, linear, solution, options);
-    for (Index i = 0; i < widths.size(); ++i) widths[i] = std::hypot(widths[i], shift[i]);
+    for (Index i = 0; i < widths.size(); ++i) {
+      widths[i] = std::hypot(widths[i], shift[i]);
+      // Nothing in the data moves with this number (a limit that is never reached).
+      if (widths[i] == 0) widths[i] = std::nan("");
+    }
   }
   for (std::size_t i = 0; i < terms.parameters().size(); ++i) {
     ParameterEstimate found;
@@ -215,8 +219,7 @@ void add_estimates(const Problem& problem, const TermSet& terms, const Linear& l
     const ParameterInfo& known = info(found.parameter);
     if (!separable) out.not_separable.push_back(found.parameter);
     const double width = widths.size() > 0 ? widths[static_cast<Index>(i)] : std::nan("");
-    // A width of zero: nothing in the data moves with this number (a limit that is never reached).
-    if (separable && width > 0 && std::isfinite(width)) {
+    if (separable && std::isfinite(width)) {
       found.estimate.low = std::max(known.lower, found.estimate.value - width);
       found.estimate.high = std::min(known.upper, found.estimate.value + width);
     }

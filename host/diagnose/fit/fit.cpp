@@ -279,11 +279,11 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   parallel_for(observations.size(), options.threads, [&](std::size_t n) {
     observations[n] = observe(model, gains, session.rig, session.recordings[n], observer);
   });
+  const std::vector<std::vector<bool>> rests = rows_at_rest(session);
   for (std::size_t n = 0; n < observations.size(); ++n) {
     const Observation& seen = observations[n];
-    const std::vector<bool> rests = rows_at_rest(session.rig, session.recordings[n]);
     for (std::size_t k = skip; k < seen.error_m.size(); ++k) {
-      if (rests[k]) {  // the reading is no nearer than that
+      if (rests[n][k]) {  // the reading is no nearer than that
         const double e = seen.error_m[k];
         all.push_back(e - std::clamp(e, -half_count, half_count));
         continue;

@@ -27,12 +27,13 @@ constexpr double kLeastTold = 1e-3;
 struct Observed {
   std::vector<Observation> seen;
   std::vector<AxisBins> axes;
+  std::vector<std::vector<bool>> rests;
 };
 
 Observed observed(const Session& session, const Model& model, const ObserverGains& gains, unsigned threads) {
   ObserverOptions keep;
   keep.keep_states = true;
-  Observed out{std::vector<Observation>(session.recordings.size()), {}};
+  Observed out{std::vector<Observation>(session.recordings.size()), {}, rows_at_rest(session)};
   parallel_for(out.seen.size(), threads, [&](std::size_t n) {
     out.seen[n] = observe(model, gains, session.rig, session.recordings[n], keep);
   });
@@ -53,14 +54,13 @@ struct PushesInBins {
   }
 };
 
-PushesInBins pushes_in_bins(const Session& session, const AxisBins& axis, const ObserverGains& gains,
+PushesInBins pushes_in_bins(const Session& session, const AxisBins& axis,
+                            const std::vector<std::vector<bool>>& rests, const ObserverGains& gains,
                             const Basis& basis, double damping) {
   PushesInBins pushes;
   Eigen::MatrixXd& columns = pushes.columns;
   columns.resize(basis.e.size(), static_cast<Eigen::Index>(axis.edges.size()) - 1);
   const std::size_t skip = settling_rows(session.rig);
-  std::vector<std::vector<bool>> rests;
-  for (const Recording& r : session.recordings) rests.push_back(rows_at_rest(session.rig, r));
   for (Eigen::Index b = 0; b < columns.cols(); ++b) {
     Eigen::Index row = 0;
     for (std::size_t n = 0; n < session.recordings.size(); ++n) {
@@ -207,12 +207,13 @@ Location locate(const Session& session, const Fit& fit, const Alike& alike, cons
     };
     const double damping = options.damping_per_s;
     if (axes[i].edges.size() >= 2) {
-      const PushesInBins pushes = pushes_in_bins(session, axes[i], gains, basis, damping);
+      const PushesInBins pushes = pushes_in_bins(session, axes[i], here.rests, gains, basis, damping);
       map_pushes(axes[i], pushes, basis, looks, map);
       coloured[i] = gain_of_alike(pushes);
     }
     if (there.axes[i].edges.size() >= 2)
-      map.alike_gain = gain_of_alike(pushes_in_bins(alike.session, there.axes[i], gains, basis, damping));
+      map.alike_gain =
+          gain_of_alike(pushes_in_bins(alike.session, there.axes[i], there.rests, gains, basis, damping));
   });
 
   // Rounding is no white noise where a cart creeps and stands: what stands out must stand out from that too.

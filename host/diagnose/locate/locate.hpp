@@ -46,8 +46,8 @@ struct Alike {
   std::vector<double> error_m;
 };
 
-/// What the errors of `alike` gain beyond chance along any axis of the session lifts all bars; what they gain
-/// along an axis of its own, that axis's.
+/// What the errors of `alike` gain beyond chance along any axis of the session, or along the middle one of
+/// its own, lifts all bars; what they gain along an axis of its own, that axis's.
 Location locate(const Session& session, const Fit& fit, const Alike& alike, const FitOptions& options);
 
 }  // namespace cartwright

@@ -47,12 +47,12 @@ class WaveColumns {
   WaveColumns(const Session& session, const Fit& base, const FitOptions& options)
       : session_(session),
         gains_(observer_gains(base.noise, session.rig.period_s(), options.damping_per_s)),
-        damping_per_s_(options.damping_per_s) {
+        damping_per_s_(options.damping_per_s),
+        rests_(rows_at_rest(session)) {
     ObserverOptions keep;
     keep.keep_states = true;
     for (const Recording& r : session.recordings)
       velocity_.push_back(observe(base.model, gains_, session.rig, r, keep).velocity_m_per_s);
-    for (const Recording& r : session.recordings) rests_.push_back(rows_at_rest(session.rig, r));
   }
 
   /// Sine and cosine of a push and, with four lanes, of the reading.
@@ -88,8 +88,8 @@ class WaveColumns {
   const Session& session_;
   ObserverGains gains_;
   double damping_per_s_;
-  std::vector<std::vector<double>> velocity_;
   std::vector<std::vector<bool>> rests_;
+  std::vector<std::vector<double>> velocity_;
 };
 
 /// The best multiples of two columns that have been projected out of the basis.

@@ -46,4 +46,10 @@ std::vector<bool> rows_at_rest(const Rig& rig, const Recording& recording) {
   return rests;
 }
 
+std::vector<std::vector<bool>> rows_at_rest(const Session& session) {
+  std::vector<std::vector<bool>> rests;
+  for (const Recording& r : session.recordings) rests.push_back(rows_at_rest(session.rig, r));
+  return rests;
+}
+
 }  // namespace cartwright

@@ -13,4 +13,7 @@ namespace cartwright {
 /// 0.5 m/s^2 take over a count (48 ms for 23 um). None where the rig tells no count.
 std::vector<bool> rows_at_rest(const Rig& rig, const Recording& recording);
 
+/// The same of each recording.
+std::vector<std::vector<bool>> rows_at_rest(const Session& session);
+
 }  // namespace cartwright
