@@ -99,6 +99,7 @@ inline constexpr std::size_t kParameterCount = 54;
 /// The numbers of something that repeats along the way.
 struct PeriodicTerm {
   Parameter amplitude, period, phase;
+  constexpr bool has(Parameter one) const { return one == amplitude || one == period || one == phase; }
 };
 /// The waves of the cogging: poles, slots and teeth each bring their own, and their multiples. One is part of
 /// a model where its amplitude is not zero.

@@ -41,9 +41,8 @@ const std::vector<TermColumns>& term_columns() {
 
 /// One wave of the cogging is fitted; the diagnosis finds further ones.
 bool is_further_wave(Parameter parameter) {
-  return std::any_of(kCoggingWaves.begin() + 1, kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
-    return parameter == wave.amplitude || parameter == wave.period || parameter == wave.phase;
-  });
+  return std::any_of(kCoggingWaves.begin() + 1, kCoggingWaves.end(),
+                     [&](const PeriodicTerm& wave) { return wave.has(parameter); });
 }
 
 double shape_of(const Model& shape, Term term, Parameter parameter, double absent) {

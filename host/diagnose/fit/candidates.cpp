@@ -25,8 +25,7 @@ double root_mean_square(const std::vector<double>& values) {
 /// A further wave of the cogging that the model does not have.
 bool of_absent_wave(P parameter, const Model& model) {
   return std::any_of(kCoggingWaves.begin() + 1, kCoggingWaves.end(), [&](const PeriodicTerm& wave) {
-    return model[wave.amplitude] == 0 &&
-           (parameter == wave.amplitude || parameter == wave.period || parameter == wave.phase);
+    return model[wave.amplitude] == 0 && wave.has(parameter);
   });
 }
 
