@@ -31,6 +31,7 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     for (const auto& [id, e] : effect.parameters) {
       fmt::print("      {} = {:.5g} [{:.5g}, {:.5g}]\n", info(id).key, e.value, e.low, e.high);
     }
+    if (!effect.equivalent.empty()) fmt::print("      also possible: {}\n", names_of(effect.equivalent));
   }
   for (const NominalParameter& p : d.parameters) {
     const Estimate& e = p.refitted;
@@ -45,6 +46,9 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     if (!d.unexplained->why_refused.empty()) fmt::print("  {}\n", d.unexplained->why_refused);
   }
   for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);
+  if (d.next_experiment)
+    fmt::print("  next: cartwright device run {}\n        separates {}, chance that it decides {:.0f} %\n",
+               d.next_experiment->experiment, d.next_experiment->separates, 100 * d.next_experiment->chance);
   fmt::print("  written: {0}/diagnosis.json, {0}/model.toml, {0}/report.html{1}\n", out,
              d.unexplained ? fmt::format(", {}/missing_force.csv", out) : "");
 }

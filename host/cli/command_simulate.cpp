@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <memory>
 
@@ -19,7 +21,12 @@ Outcome run(const Options& options) {
   auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
   tell_gaps(*session);
-  for (Recording& recording : session->recordings) recording = simulate(*model, session->rig, recording);
+  for (Recording& recording : session->recordings) {
+    if (!recording.has_controller())
+      fmt::print(stderr, "cartwright: note: {}: no control law, its recorded voltage is replayed\n",
+                 recording.file);
+    recording = simulate(*model, session->rig, recording);
+  }
   const auto written = write_session(*session, options.out);
   if (!written) return tl::unexpected(written.error());
   return Status::done;

@@ -17,6 +17,8 @@
 #include "host/diagnose/judge/remarks.hpp"
 #include "host/diagnose/judge/statement.hpp"
 #include "host/diagnose/judge/surrogate.hpp"
+#include "host/diagnose/judge/told_apart.hpp"
+#include "host/diagnose/locate/acts.hpp"
 #include "host/diagnose/locate/where.hpp"
 #include "host/diagnose/search/lost_counts.hpp"
 #include "host/statistics/distributions.hpp"
@@ -32,25 +34,16 @@ constexpr double kSureOfChange = 0.997;  // of three numbers or so one is off by
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or two fifths of the likelihood to be gained.
 constexpr double kMostLeftOfWindows = 0.2;
+constexpr double kWorthTelling = 0.05;       // of the likelihood
 constexpr double kShowsMismatch = 1.5;  // window error over noise floor
 constexpr double kMostLeftOfLikelihood = 0.4;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;
-/// Two terms are one class when their likelihoods differ by less than chance would make them.
-constexpr double kEquivalentZ = 2.5;
-constexpr double kEquivalentNats = 10;
-
 constexpr std::size_t kPeriodsTold = 3;
 
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
-}
-
-/// How sure one explanation is to be better than another.
-double paired_z(const Fit& better, const Fit& worse) {
-  const PairedDifference d = paired_difference(better, worse);
-  return d.spread > 0 ? d.nats / d.spread : 0;
 }
 
 /// Share of the excess of the window errors, above the floor, that the effects leave; 1 where there is no
@@ -95,7 +88,7 @@ class Diagnostician {
     report("replaying windows", 0.88);
     measure(used, held);
     judge(repaired);
-    name_effects(used);
+    name_effects(repaired);
     name_parameters();
     propose(used);
     if (drive_only_balances_ && result_.verdict == Verdict::unexplained) read_the_drive(used, held);
@@ -130,10 +123,12 @@ class Diagnostician {
     return locate(session, fit, alike(session, fit, options), options);
   }
 
+  double nats_left() const { return kGainOverPromise * structure_left(result_.after); }
+
   /// Share of the likelihood to be gained that the best explanation leaves.
   double likelihood_left() const {
     const Search& found = result_.search;
-    const double left = kGainOverPromise * structure_left(result_.after);
+    const double left = nats_left();
     const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
     return left > 0 ? left / (left + gained) : 0;
   }
@@ -160,7 +155,7 @@ class Diagnostician {
       why_refused =
           fmt::format("{:.0f} % of what the model misses is still there, far above chance", 100 * share_left);
     const bool refused = !why_refused.empty();
-    if (refused || of_likelihood > 0.05) describe_left_over(share_left, why_refused);
+    if (refused || of_likelihood > kWorthTelling) describe_left_over(share_left, why_refused);
     if (refused) {
       result_.verdict = Verdict::unexplained;
       result_.model = found.refitted.fit.model;
@@ -182,11 +177,11 @@ class Diagnostician {
     if (!drive || !names_cogging(*drive)) return;
     name_from_drive(*drive, nominal_, result_);
     result_.drive = drive;
-    result_.effects.front().where = where_of(result_.before);
     result_.used.with_effects = window_rmse_m(result_.model, used, options_.threads);
     if (!held.empty())
       result_.held_out.with_effects = window_rmse_m(result_.model, only(session_, held), options_.threads);
     const Fit as_it_is = fit(used, result_.model, result_.search.best.fit.noise, {}, fit_options_);
+    result_.effects.front().where = where_it_acts(Term::cogging, used, as_it_is, fit_options_);
     result_.after = located(used, as_it_is);
     describe_left_over(drive->share_left(), "");
     result_.unexplained->closest.reset();
@@ -270,7 +265,7 @@ class Diagnostician {
     result_.noise_floor_m = std::min(floor, result_.used.with_effects);
   }
 
-  void name_effects(const Session& used) {
+  void name_effects(const Session& repaired) {
     if (result_.verdict != Verdict::missing_physics) return;
     const Search& found = result_.search;
     double gains = 0;
@@ -278,10 +273,9 @@ class Diagnostician {
     const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
     for (const Contest& contest : found.contests) {
       Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, {}, ""};
-      effect.where = where_of(contest.chosen, result_.model, result_.before);
+      effect.where = where_it_acts(contest.chosen, repaired, found.best.fit, fit_options_);
       if (contest.chosen == Term::encoder_missed_counts) {
-        effect.parameters =
-            lost_counts(without_jumps(used, found.best.jumps), found.best.jumps, result_.model);
+        effect.parameters = lost_counts(repaired, found.best.jumps, result_.model);
       } else {
         for (const FreeParameter& p : found.best.fit.free) {
           if (info(p.id).term != contest.chosen) continue;
@@ -307,17 +301,16 @@ class Diagnostician {
     evidence.share_of_gain = contest.gain / gains;
     evidence.share_left = result_.unexplained ? result_.unexplained->share_left : 0;
     evidence.at_bound = static_cast<int>(effect.at_bound.size());
-    // The score of the explanation as it stood when this effect was chosen.
-    const Explanation* winner = &contest.winner;
+    const double unexplained = result_.unexplained ? nats_left() : 0;
     const std::size_t before = result_.runner_up.size();
     for (const Explanation& other : contest.alternatives) {
       if (result_.search.best.has(other.effects.back())) continue;  // named as well, beside it
-      const double behind = winner->score() - other.score();
+      // The score of the explanation as it stood when this effect was chosen.
+      const double behind = contest.winner.score() - other.score();
       const double weight = weight_of_rival(behind);
       evidence.margin_nats = std::min(evidence.margin_nats, behind);
       evidence.rivals += weight;
-      if (behind < kEquivalentNats && paired_z(winner->fit, other.fit) < kEquivalentZ)
-        effect.equivalent.push_back(other.effects.back());
+      if (!told_apart(contest, other, unexplained)) effect.equivalent.push_back(other.effects.back());
       result_.runner_up.push_back({other.effects.back(), contest.chosen, weight, behind});
     }
     evidence.equivalent = static_cast<int>(effect.equivalent.size());

@@ -85,7 +85,9 @@ Result<MatFile> MatFile::open(const std::filesystem::path& file) {
   if (mat == nullptr) {
     return failure(fmt::format("{}: not a readable MATLAB file (version 4, 5 or 7.3)", file.string()));
   }
-  return MatFile(std::make_shared<Handle>(mat), file.string());
+  MatFile opened(std::make_shared<Handle>(mat), file.string());
+  if (opened.names().empty()) return failure(fmt::format("{}: holds no variables", file.string()));
+  return opened;
 }
 
 std::vector<std::string> MatFile::names() const {

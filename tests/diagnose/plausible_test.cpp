@@ -10,7 +10,7 @@ namespace {
 using P = Parameter;
 
 /// What a session must show of a cart's travel and encoder.
-SessionFacts facts() {
+SessionFacts of_a_rail() {
   SessionFacts facts;
   facts.count_m = 2e-5;
   facts.position_low_m = -0.2, facts.position_high_m = 0.2;
@@ -19,7 +19,7 @@ SessionFacts facts() {
 
 Session session() {
   Session session;
-  session.rig.encoder_resolution_m = facts().count_m;
+  session.rig.encoder_resolution_m = of_a_rail().count_m;
   return session;
 }
 
@@ -27,9 +27,9 @@ Session session() {
 bool coupling(double load_share, double standard_error) {
   Fit fit;
   fit.model = Model(2.0).set(P::coupling_resonance, 12).set(P::coupling_load_share, load_share);
-  fit.free = {free_parameter(P::coupling_load_share, facts(), fit.model)};
+  fit.free = {free_parameter(P::coupling_load_share, of_a_rail(), fit.model)};
   fit.covariance.setConstant(1, 1, standard_error * standard_error);
-  return plausible(fit, Term::flexible_coupling, session(), facts());
+  return plausible(fit, Term::flexible_coupling, session(), of_a_rail());
 }
 
 TEST(Plausible, ACouplingIsOfTwoMasses) {
@@ -50,7 +50,7 @@ bool encoder(double eccentricity) {
   fit.model = Model(2.0)
                   .set(P::eccentricity_period, kPeriod_m)
                   .set(P::eccentricity_amplitude, eccentricity * kPeriod_m / (2 * M_PI));
-  return plausible(fit, Term::encoder_eccentricity, session(), facts());
+  return plausible(fit, Term::encoder_eccentricity, session(), of_a_rail());
 }
 
 TEST(Plausible, AnEncoderTurnsNearlyAboutItsAxis) {

@@ -130,15 +130,21 @@ TEST_F(Rigs, FrictionLeftOutOfEmpsIsFoundAndPredictsTheOtherRecord) {
   Session seen{data->rig, {even_rows(data->recordings[0], kRate_hz)}};
   Session unseen{data->rig, {even_rows(data->recordings[1], kRate_hz)}};
   seen.rig.sample_rate_hz = unseen.rig.sample_rate_hz = kRate_hz;
-  const Search search = explain(seen, identified(seen, {Term::viscous_friction}));
-  EXPECT_EQ(search.best.effects.front(), Term::coulomb_friction);
-  // What the publication calls an offset is, for this record, friction that differs between directions.
-  EXPECT_TRUE(search.best.has(Term::asymmetric_viscous_friction) || search.best.has(Term::constant_force));
+  const Diagnosis d = diagnose(seen, identified(seen, {Term::viscous_friction}));
+  EXPECT_NE(effect(d, Term::coulomb_friction), nullptr);
+  // What the publication calls an offset is, for this record, rather friction that differs between directions;
+  // but more than what tells them apart stays unexplained.
+  const bool constant_is_possible =
+      std::any_of(d.effects.begin(), d.effects.end(), [](const Effect& one) {
+        return one.term == Term::constant_force || std::find(one.equivalent.begin(), one.equivalent.end(),
+                                                             Term::constant_force) != one.equivalent.end();
+      });
+  EXPECT_TRUE(constant_is_possible);
   const auto published = read_file(fs::path(CARTWRIGHT_SOURCE) / "host/session/maps/emps_published.toml");
   ASSERT_TRUE(published);
   const auto model = model_from_toml(*published, "emps_published.toml");
   ASSERT_TRUE(model);
-  EXPECT_LT(window_rmse_m(search.best.fit.model, unseen, 2), window_rmse_m(*model, unseen, 2));
+  EXPECT_LT(window_rmse_m(d.model, unseen, 2), window_rmse_m(*model, unseen, 2));
 }
 
 }  // namespace

@@ -334,6 +334,19 @@ TEST(BadInput, MissingRowsAreSaid) {
   }
 }
 
+TEST(BadInput, ARecordingWithoutItsControlLawIsSaidToBeReplayed) {
+  const Scratch scratch;
+  scratch.put("model.toml", kModel);
+  scratch.put("session/session.toml",
+              std::string(kRig) + "[[recording]]\nfile = \"step.csv\"\nexperiment = \"step\"\n");
+  scratch.put("session/step.csv", csv());
+  const Finished finished = cartwright({"simulate", "--model", scratch.text("model.toml"), "--session",
+                                        scratch.text("session"), "--out", scratch.text("out")});
+  EXPECT_EQ(finished.status, 0);
+  EXPECT_EQ(finished.err,
+            "cartwright: note: step.csv: no control law, its recorded voltage is replayed\n");
+}
+
 TEST(BadInput, AnOutputThatIsNoDirectoryIsRefused) {
   const Scratch scratch;
   scratch.put("model.toml", kModel);

@@ -207,6 +207,10 @@ TEST_F(ImportTest, ABrokenMatlabFileIsRefused) {
   const auto opened = MatFile::open(file);
   ASSERT_FALSE(opened);
   EXPECT_THAT(opened.error().message, HasSubstr("not a readable MATLAB file"));
+  ASSERT_TRUE(write_file(file, ""));
+  const auto empty = MatFile::open(file);
+  ASSERT_FALSE(empty);
+  EXPECT_THAT(empty.error().message, HasSubstr("holds no variables"));
   const auto absent = MatFile::open(directory_ / "absent.mat");
   ASSERT_FALSE(absent);
   EXPECT_THAT(absent.error().message, HasSubstr("No such file"));

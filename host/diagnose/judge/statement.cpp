@@ -106,6 +106,12 @@ std::string statement(Term term, const Model& m) {
   return {};
 }
 
+std::string names_of(const std::vector<Term>& terms) {
+  std::string list;
+  for (const Term term : terms) list += fmt::format("{}{}", list.empty() ? "" : ", ", info(term).name);
+  return list;
+}
+
 std::string length_text(double length_m) {
   return length_m < 1e-3 ? fmt::format("{:.3g} um", 1e6 * length_m)
                          : fmt::format("{:.3g} mm", 1e3 * length_m);

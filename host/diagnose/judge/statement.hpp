@@ -10,6 +10,9 @@ namespace cartwright {
 /// An effect as a sentence with its numbers and units.
 std::string statement(Term term, const Model& model);
 
+/// "lag, delay": terms by their names.
+std::string names_of(const std::vector<Term>& terms);
+
 struct Diagnosis;
 struct Unexplained;
 

@@ -7,7 +7,6 @@
 namespace cartwright {
 namespace {
 
-constexpr std::size_t kBins = 12;
 constexpr double kUnusable = std::numeric_limits<double>::quiet_NaN();
 
 using Columns = std::vector<std::vector<double>>;
@@ -33,22 +32,23 @@ std::vector<double> even_edges(const Columns& values, std::size_t bins) {
 
 AxisBins binned(std::string axis, std::string parity, const Columns& values, std::vector<double> edges,
                 const std::vector<std::vector<signed char>>& direction, std::vector<std::string> names = {}) {
-  AxisBins bins{std::move(axis), std::move(parity), std::move(edges), {}, direction, std::move(names)};
+  AxisBins out{std::move(axis), std::move(parity), std::move(edges), {}, direction, std::move(names)};
   for (const auto& column : values) {
     std::vector<int> rows(column.size(), -1);
     for (std::size_t k = 0; k < column.size(); ++k) {
-      if (std::isnan(column[k]) || bins.edges.size() < 2) continue;
-      const auto above = std::upper_bound(bins.edges.begin() + 1, bins.edges.end() - 1, column[k]);
-      rows[k] = static_cast<int>(above - bins.edges.begin()) - 1;
+      if (std::isnan(column[k]) || out.edges.size() < 2) continue;
+      const auto above = std::upper_bound(out.edges.begin() + 1, out.edges.end() - 1, column[k]);
+      rows[k] = static_cast<int>(above - out.edges.begin()) - 1;
     }
-    bins.bin.push_back(std::move(rows));
+    out.bin.push_back(std::move(rows));
   }
-  return bins;
+  return out;
 }
 
 }  // namespace
 
-std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observation>& seen) {
+std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observation>& seen,
+                              std::size_t bins) {
   const std::size_t count = session.recordings.size();
   Columns time(count), which(count), position(count), velocity(count), acceleration(count), voltage(count),
       reversal(count), everywhere(count);
@@ -88,7 +88,7 @@ std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observat
   std::vector<AxisBins> axes;
   const auto add = [&](const char* name, const char* parity, const Columns& values) {
     const bool is_odd = std::string_view(parity) == "odd";
-    axes.push_back(binned(name, parity, values, even_edges(values, kBins), is_odd ? odd : even));
+    axes.push_back(binned(name, parity, values, even_edges(values, bins), is_odd ? odd : even));
   };
   add("time_s", "even", time);
   add("time_s", "odd", time);

@@ -18,6 +18,7 @@ struct AxisBins {
 
 /// The axes of a session as seen by its observer: time, recording, position, velocity, acceleration, voltage,
 /// direction and distance since reversal. Bins hold equal numbers of moving rows.
-std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observation>& seen);
+std::vector<AxisBins> axes_of(const Session& session, const std::vector<Observation>& seen,
+                              std::size_t bins = 12);
 
 }  // namespace cartwright

@@ -18,24 +18,19 @@ double structure_left(const Location& location) {
   return most;
 }
 
+Where nowhere() {
+  return {{"time_s", {}},    {"position_m", {}},   {"velocity_m_per_s", {}},
+          {"voltage_V", {}}, {"frequency_hz", {}}, {"after_reversal_m", {}}};
+}
+
 Where where_of(const Location& location) {
-  Where where{{"time_s", {}},    {"position_m", {}},   {"velocity_m_per_s", {}},
-              {"voltage_V", {}}, {"frequency_hz", {}}, {"after_reversal_m", {}}};
+  Where where = nowhere();
   for (const AxisMap& map : location.axes) {
     if (map.flat() || !where.contains(map.axis)) continue;
     if (const auto stretch = map.stretch(); !stretch.empty()) where[map.axis] = stretch;
   }
   const Profile& over_frequency = location.over_frequency;
   if (!over_frequency.flat()) where["frequency_hz"].assign(2, over_frequency.at[over_frequency.strongest()]);
-  return where;
-}
-
-Where where_of(Term effect, const Model& model, const Location& location) {
-  Where where = where_of(location);
-  if (effect == Term::external_disturbance) {
-    const double start_s = model[Parameter::disturbance_start];
-    where["time_s"] = {start_s, start_s + model[Parameter::disturbance_duration]};
-  }
   return where;
 }
 

@@ -8,15 +8,14 @@
 
 namespace cartwright {
 
-/// Axis name to the widest stretch [low, high] on which the missing push stands outside its band; empty:
-/// flat.
+/// Name of each axis of diagnosis.json to a stretch [low, high] of it; empty where none stands out.
 using Where = std::map<std::string, std::vector<double>>;
 
-/// The axes of diagnosis.json, from a location map.
-Where where_of(const Location& location);
+/// No stretch of any axis.
+Where nowhere();
 
-/// Where an effect acts that the maps of all recordings together are too coarse for: a push is at its time.
-Where where_of(Term effect, const Model& model, const Location& location);
+/// Where something is missing: the widest stretches on which the missing push stands outside its band.
+Where where_of(const Location& location);
 
 /// Gain of the structure that a location map still shows, in nats.
 double structure_left(const Location& location);

@@ -7,6 +7,7 @@
 
 #include "common/config/interval_toml.hpp"
 #include "common/config/model_toml.hpp"
+#include "host/diagnose/judge/statement.hpp"
 
 namespace cartwright {
 namespace {
@@ -189,10 +190,8 @@ std::string model_with_intervals(const Diagnosis& d) {
     for (const Parameter id : effect.at_bound)
       flags += fmt::format("\"{}\" = \"at bound\"\n", dotted_name(id));
     if (effect.equivalent.empty()) continue;
-    std::vector<std::string_view> others;
-    for (const Term term : effect.equivalent) others.push_back(info(term).name);
-    flags +=
-        fmt::format("\"{}\" = \"not separable from {}\"\n", info(effect.term).name, fmt::join(others, ", "));
+    flags += fmt::format("\"{}\" = \"not separable from {}\"\n", info(effect.term).name,
+                         names_of(effect.equivalent));
   }
   if (!flags.empty()) flags.insert(0, "\n[flags]\n");
   return to_toml(d.model) + intervals_to_toml(intervals) + flags;

@@ -67,9 +67,7 @@ void what(Report& page, const Diagnosis& d) {
       "Effects, strongest first",
       {{"effect"}, {"parameter"}, {"value and 95 % interval"}, {"unit"}, {"confidence"}, {"also possible"}}};
   for (const Effect& effect : d.effects) {
-    std::string also;
-    for (const Term term : effect.equivalent)
-      also += fmt::format("{}{}", also.empty() ? "" : ", ", info(term).name);
+    const std::string also = names_of(effect.equivalent);
     bool first = true;
     for (const auto& [id, e] : effect.parameters) {
       const bool bound =
@@ -81,6 +79,17 @@ void what(Report& page, const Diagnosis& d) {
     }
   }
   if (!effects.rows.empty()) page.table(effects);
+  Table places{"Where they act: the stretch that holds most of an effect's push, at twice its mean power and "
+               "more; along other axes it acts everywhere",
+               {{"effect"}, {"axis"}, {"from"}, {"to"}, {"unit"}}};
+  for (const Effect& effect : d.effects) {
+    for (const auto& [axis, stretch] : effect.where) {
+      if (!stretch.empty())
+        places.row({std::string(info(effect.term).name), axis, Cell::number(stretch.front(), 3),
+                    Cell::number(stretch.back(), 3), unit_of(axis)});
+    }
+  }
+  if (!places.rows.empty()) page.table(places);
   Table numbers{"Numbers of the nominal terms",
                 {{"parameter"}, {"nominal"}, {"refitted alone"}, {"found, 95 % interval"}, {"unit"}}};
   for (const NominalParameter& p : d.parameters) {
@@ -172,8 +181,8 @@ void what_else(Report& page, const Diagnosis& d) {
         "Others, each fitted in the place of an effect and everything else refitted alongside",
         {{"effect"}, {"instead of"}, {"log-likelihood behind", "nats"}, {"confidence"}},
         {},
-        "Ten nats and more is beyond doubt where the noise is as fitted; below zero it scored higher, "
-        "with more numbers."};
+        "Ten nats and more is beyond doubt where the noise is as fitted and nothing stays unexplained; "
+        "below zero it scored higher, with more numbers."};
     for (const RunnerUp& other : d.runner_up) {
       if (others.rows.size() == kRunnersUpShown) break;
       others.row({std::string(info(other.term).name), std::string(info(other.instead_of).name),
@@ -214,6 +223,14 @@ void next(Report& page, const Diagnosis& d) {
                                d.next_experiment->experiment, d.next_experiment->separates,
                                100 * d.next_experiment->chance));
     page.code("cartwright device run " + d.next_experiment->experiment);
+  } else if (std::any_of(d.effects.begin(), d.effects.end(),
+                         [](const Effect& effect) { return !effect.equivalent.empty(); })) {
+    page.paragraph("No experiment of the menu is likely to tell those apart that are also possible.");
+  } else if (d.unexplained && !d.unexplained->axis.empty()) {
+    page.paragraph(
+        fmt::format("What has no name cannot be simulated, so no experiment can be chosen for it. Most of it "
+                    "lies along {}: record more there.",
+                    d.unexplained->axis));
   } else {
     page.paragraph("Nothing: this data leaves no two candidates that it cannot tell apart.");
   }

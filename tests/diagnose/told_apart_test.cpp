@@ -1,0 +1,49 @@
+#include "host/diagnose/judge/told_apart.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cartwright {
+namespace {
+
+/// A term that falls `behind` in 100 blocks alike, but for chance of a hundredth of the noise.
+Explanation behind_by(double behind_nats) {
+  Explanation one;
+  one.effects = {Term::constant_force};
+  one.fit.error_rms_m = 1;
+  one.fit.log_likelihood = -behind_nats;
+  for (int block = 0; block < 100; ++block)
+    one.fit.block_loss_m2.push_back(1 + 0.02 * behind_nats + (block % 2 == 0 ? 0.01 : -0.01) * behind_nats);
+  return one;
+}
+
+Contest contest_that_gained(double gain_nats) {
+  return {Term::asymmetric_viscous_friction, gain_nats, behind_by(0), {}};
+}
+
+TEST(ToldApart, WhatIsFarBehindIsWhereAllIsExplained) {
+  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(300), 0));
+}
+
+TEST(ToldApart, WhatIsWithinChanceIsNot) {
+  Explanation other = behind_by(0);
+  other.fit.block_loss_m2.front() += 2;   // a nat in one block ...
+  other.fit.block_loss_m2.back() -= 1.5;  // ... and the other way in another
+  other.fit.log_likelihood = -0.25;
+  EXPECT_FALSE(told_apart(contest_that_gained(800), other, 0));
+}
+
+TEST(ToldApart, LittleBehindButInEveryBlockIs) {
+  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(9), 0));
+}
+
+TEST(ToldApart, WhatIsLeftMayBeAllOfTheDifference) {
+  EXPECT_FALSE(told_apart(contest_that_gained(800), behind_by(300), 301));
+  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(300), 299));
+}
+
+TEST(ToldApart, WhatGainsTooLittleForANameIsWhateverIsLeft) {
+  EXPECT_TRUE(told_apart(contest_that_gained(300), behind_by(295), 1000));
+}
+
+}  // namespace
+}  // namespace cartwright
