@@ -6,6 +6,7 @@
 
 #include "common/model/encoder.hpp"
 #include "common/model/plant.hpp"
+#include "host/session/motion_range.hpp"
 #include "host/session/segments.hpp"
 
 namespace cartwright {
@@ -13,10 +14,12 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastRows = 4;
-/// Trial changes for the sensitivities: large enough that friction does not swallow them, small against the
-/// motion.
-constexpr double kTrialPosition_m = 1e-5;
-constexpr double kTrialVelocity_m_per_s = 1e-3;
+/// Trial changes for the sensitivities, of the travel and of the greatest speed: large enough that friction
+/// does not swallow them, small against the motion.
+constexpr double kTrialPosition = 3e-5;
+constexpr double kTrialVelocity = 1e-3;
+/// Of the greatest speed: below it the cart may stand.
+constexpr double kSlow = 0.05;
 
 struct Start {
   double position_m = 0, velocity_m_per_s = 0;
@@ -31,6 +34,10 @@ class Replay {
     plant_options_.linear_by_steps = options.linear_by_steps;
     plant_options_.disturbance_active = model.disturbance_recording == recording.file;
     plant_options_.heating_start_s = options.started_s.value_or(recording.t_s.front());
+    const MotionRange range = motion_range_of({&recording, 1});
+    if (range.travel_m() > 0) trial_position_m_ = kTrialPosition * range.travel_m();
+    if (range.most_speed_m_per_s > 0) trial_velocity_m_per_s_ = kTrialVelocity * range.most_speed_m_per_s;
+    slow_m_per_s_ = kSlow * range.most_speed_m_per_s;
   }
 
   Plant cold_plant(const Model& model, std::size_t row) const {
@@ -58,7 +65,7 @@ class Replay {
     const Start moving = slope(first, last);
     Start best = moving;
     double best_cost = refine(before, best, first, last);
-    if (std::abs(moving.velocity_m_per_s) < kSlow_m_per_s) {
+    if (std::abs(moving.velocity_m_per_s) <= slow_m_per_s_) {
       Start still{moving.position_m, 0};
       const double cost = refine(before, still, first, last);
       if (cost < best_cost) best = still;
@@ -100,7 +107,6 @@ class Replay {
     motion.moving_share[row] = moving;
   }
 
-  static constexpr double kSlow_m_per_s = 0.05;
   static constexpr std::size_t kSlopeRows = 12;
 
   /// Straight line through the first rows, at the first row's time.
@@ -142,14 +148,14 @@ class Replay {
     double now = try_start(before, start, first, last, base_m_);
     double damping = 1e-6;
     for (int iteration = 0; iteration < options_.iterations; ++iteration) {
-      try_start(before, {start.position_m + kTrialPosition_m, start.velocity_m_per_s}, first, last,
+      try_start(before, {start.position_m + trial_position_m_, start.velocity_m_per_s}, first, last,
                 by_position_m_);
-      try_start(before, {start.position_m, start.velocity_m_per_s + kTrialVelocity_m_per_s}, first, last,
+      try_start(before, {start.position_m, start.velocity_m_per_s + trial_velocity_m_per_s_}, first, last,
                 by_velocity_m_);
       double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
       for (std::size_t i = 0; i < base_m_.size(); ++i) {
-        const double a = (by_position_m_[i] - base_m_[i]) / kTrialPosition_m;
-        const double b = (by_velocity_m_[i] - base_m_[i]) / kTrialVelocity_m_per_s;
+        const double a = (by_position_m_[i] - base_m_[i]) / trial_position_m_;
+        const double b = (by_velocity_m_[i] - base_m_[i]) / trial_velocity_m_per_s_;
         const double r = recording_.y_m[first + i] - base_m_[i];
         aa += a * a;
         ab += a * b;
@@ -184,6 +190,8 @@ class Replay {
   const ReplayOptions& options_;
   PlantOptions plant_options_;
   Encoder encoder_;
+  /// Of a cart that never moves any will do.
+  double trial_position_m_ = 1e-6, trial_velocity_m_per_s_ = 1e-3, slow_m_per_s_ = 0;
   std::vector<double> base_m_, trial_m_, by_position_m_, by_velocity_m_;
 };
 

@@ -16,8 +16,8 @@ using P = Parameter;
 Where acts(Term effect, const Model& model, const test::IndependentCart& cart) {
   const Session session = test::battery(cart);
   const FitOptions options;
-  return where_it_acts(effect, session, fit(session, model, search_noise(session, model, options), {}, options),
-                       options);
+  return where_it_acts(effect, session,
+                       fit(session, model, search_noise(session, model, options), {}, options), options);
 }
 
 Model with(std::initializer_list<std::pair<P, double>> numbers) {
@@ -31,9 +31,8 @@ TEST(Acts, ASpotWhereItLies) {
   cart.extra_level = [](double, double y, double, double) {
     return 1.5 * std::exp(-0.5 * std::pow((y - 0.03) / 0.01, 2));
   };
-  const Where where = acts(
-      Term::position_dependent_friction,
-      with({{P::spot_peak, 1.5}, {P::spot_centre, 0.03}, {P::spot_width, 0.01}}), cart);
+  const Where where = acts(Term::position_dependent_friction,
+                           with({{P::spot_peak, 1.5}, {P::spot_centre, 0.03}, {P::spot_width, 0.01}}), cart);
   ASSERT_EQ(where.at("position_m").size(), 2U);
   EXPECT_NEAR(where.at("position_m")[0], 0.02, 0.01);
   EXPECT_NEAR(where.at("position_m")[1], 0.04, 0.01);

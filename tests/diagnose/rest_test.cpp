@@ -13,26 +13,36 @@ namespace cartwright {
 namespace {
 
 constexpr double kCount_m = 1e-4;
-constexpr double kReach_s = 0.1;  // 10 s sqrt(1e-4)
-
-Rig rig() {
-  Rig rig;
-  rig.encoder_resolution_m = kCount_m;
-  return rig;
-}
+constexpr double kAmplitude_m = 0.05, kRadians_per_s = 6.3;
+/// 5 sqrt(2 q / a), where v is the greatest speed of a sine and L its travel.
+const double kReach_s =
+    5 * std::sqrt(2 * kCount_m * 6 * 2 * kAmplitude_m / std::pow(kRadians_per_s * kAmplitude_m, 2));
 
 /// Two seconds of readings, in counts.
 Recording readings(const std::function<double(double t_s)>& counts) {
   Recording r;
   for (int k = 0; k < 2000; ++k) {
-    r.t_s.push_back(k * rig().period_s());
+    r.t_s.push_back(k * Rig().period_s());
     r.y_m.push_back(kCount_m * std::round(counts(r.t_s.back())));
   }
   return r;
 }
 
+/// Beside a sine, which says how fast the cart is.
+Session beside_a_sine(const Recording& r) {
+  Session session;
+  session.rig.encoder_resolution_m = kCount_m;
+  session.recordings = {
+      r, readings([](double t) { return kAmplitude_m / kCount_m * std::sin(kRadians_per_s * t); })};
+  return session;
+}
+
+std::vector<bool> rests_of(const Recording& r) {
+  return rows_at_rest(beside_a_sine(r)).front();
+}
+
 std::size_t resting(const Recording& r) {
-  const std::vector<bool> rests = rows_at_rest(rig(), r);
+  const std::vector<bool> rests = rests_of(r);
   return static_cast<std::size_t>(std::count(rests.begin(), rests.end(), true));
 }
 
@@ -47,7 +57,7 @@ TEST(Rest, BeginsSomeTimeAfterAMoveAndEndsAsLongBeforeTheNext) {
   const Recording r = readings([](double t) {
     return t < 0.5 ? 400 * t : t < 1.5 ? 200 : 200 + 400 * (t - 1.5);
   });
-  const std::vector<bool> rests = rows_at_rest(rig(), r);
+  const std::vector<bool> rests = rests_of(r);
   for (std::size_t k = 0; k < r.size(); ++k) {
     const double t = r.t_s[k];
     if (t < 0.49 + kReach_s || t > 1.51 - kReach_s) {
@@ -62,17 +72,29 @@ TEST(Rest, BeginsSomeTimeAfterAMoveAndEndsAsLongBeforeTheNext) {
 /// all behind it, the second all ahead.
 TEST(Rest, IsTheSameBackwards) {
   Recording r = readings([](double t) { return 3 + 6 * t * t; });
-  const std::vector<bool> forwards = rows_at_rest(rig(), r);
+  const std::vector<bool> forwards = rests_of(r);
   std::reverse(r.y_m.begin(), r.y_m.end());
-  std::vector<bool> backwards = rows_at_rest(rig(), r);
+  std::vector<bool> backwards = rests_of(r);
   std::reverse(backwards.begin(), backwards.end());
   EXPECT_EQ(forwards, backwards);
   EXPECT_GT(std::count(forwards.begin(), forwards.end(), true), 0);
 }
 
+TEST(Rest, IsTheSameInOtherUnitsOfLength) {
+  Session session = beside_a_sine(readings([](double t) { return 3 + 6 * t * t; }));
+  const std::vector<std::vector<bool>> in_metres = rows_at_rest(session);
+  session.rig.encoder_resolution_m *= 1000;
+  for (Recording& r : session.recordings) {
+    for (double& y : r.y_m) y *= 1000;
+  }
+  EXPECT_EQ(rows_at_rest(session), in_metres);
+}
+
 TEST(Rest, IsNotToldWithoutACount) {
-  const std::vector<bool> rests = rows_at_rest({}, readings([](double) { return 7; }));
-  EXPECT_EQ(std::count(rests.begin(), rests.end(), true), 0);
+  Session session = beside_a_sine(readings([](double) { return 7; }));
+  session.rig.encoder_resolution_m = 0;
+  for (const std::vector<bool>& rests : rows_at_rest(session))
+    EXPECT_EQ(std::count(rests.begin(), rests.end(), true), 0);
 }
 
 /// Noise that is fitted to a cart at rest as well is too small for the cart that moves, whose errors then

@@ -132,13 +132,12 @@ TEST_F(Rigs, FrictionLeftOutOfEmpsIsFoundAndPredictsTheOtherRecord) {
   seen.rig.sample_rate_hz = unseen.rig.sample_rate_hz = kRate_hz;
   const Diagnosis d = diagnose(seen, identified(seen, {Term::viscous_friction}));
   EXPECT_NE(effect(d, Term::coulomb_friction), nullptr);
-  // What the publication calls an offset is, for this record, rather friction that differs between directions;
-  // but more than what tells them apart stays unexplained.
-  const bool constant_is_possible =
-      std::any_of(d.effects.begin(), d.effects.end(), [](const Effect& one) {
-        return one.term == Term::constant_force || std::find(one.equivalent.begin(), one.equivalent.end(),
-                                                             Term::constant_force) != one.equivalent.end();
-      });
+  // What the publication calls an offset is, for this record, rather friction that differs between
+  // directions; but more than what tells them apart stays unexplained.
+  const bool constant_is_possible = std::any_of(d.effects.begin(), d.effects.end(), [](const Effect& one) {
+    return one.term == Term::constant_force || std::find(one.equivalent.begin(), one.equivalent.end(),
+                                                         Term::constant_force) != one.equivalent.end();
+  });
   EXPECT_TRUE(constant_is_possible);
   const auto published = read_file(fs::path(CARTWRIGHT_SOURCE) / "host/session/maps/emps_published.toml");
   ASSERT_TRUE(published);

@@ -9,17 +9,14 @@ namespace {
 using P = Parameter;
 using T = Term;
 
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+/// Starts at a kilohertz of something that goes with the rate to a power, and the same in ticks of the rig.
+std::vector<double> at_both_rates(std::vector<double> starts, const SessionFacts& facts, double power) {
+  constexpr double kOtherRate = 1.5;
+  const double rate = facts.slower() * facts.faster();
+  if (rate < kOtherRate && rate > 1 / kOtherRate) return starts;
+  for (std::size_t i = 0, usual = starts.size(); i < usual; ++i)
+    starts.push_back(starts[i] * std::pow(rate, power));
+  return starts;
 }
 
 /// A further wave of the cogging that the model does not have.
@@ -32,25 +29,16 @@ bool of_absent_wave(P parameter, const Model& model) {
 }  // namespace
 
 SessionFacts facts_of(const Session& session) {
-  constexpr double kSpeedSpan_s = 0.02;
-  std::vector<double> position, voltage, speed;
-  SessionFacts facts;
+  std::vector<double> voltage;
+  SessionFacts facts{motion_range_of(session.recordings)};
   facts.count_m = session.rig.encoder_resolution_m;
+  facts.sample_rate_hz = session.rig.sample_rate_hz;
   for (const Recording& r : session.recordings) {
-    position.insert(position.end(), r.y_m.begin(), r.y_m.end());
     for (const double u : r.u_V) voltage.push_back(std::abs(u));
-    const auto span = static_cast<std::size_t>(std::max(1.0, kSpeedSpan_s * session.rig.sample_rate_hz));
-    for (std::size_t k = span; k < r.size(); ++k) {
-      speed.push_back(std::abs(r.y_m[k] - r.y_m[k - span]) / (r.t_s[k] - r.t_s[k - span]));
-    }
     facts.longest_recording_s = std::max(facts.longest_recording_s, r.t_s.back() - r.t_s.front());
   }
-  facts.position_low_m = percentile(position, 0.001);
-  facts.position_high_m = percentile(position, 0.999);
   facts.most_voltage_V = percentile(voltage, 0.999);
   facts.typical_voltage_V = root_mean_square(voltage);
-  facts.most_speed_m_per_s = percentile(speed, 0.99);
-  facts.typical_speed_m_per_s = root_mean_square(speed);
   return facts;
 }
 
@@ -133,14 +121,14 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       break;
     case P::armature_time_constant:
     case P::transport_delay:
-      free.scale = 1e-3;
-      free.upper = 0.05;
+      free.scale = 1e-3 / facts.slower();
+      free.upper = std::min(free.upper, 0.05 / facts.slower());
       break;
     case P::coupling_resonance:
-      logarithmic(2, 100);
+      logarithmic(2 * facts.slower(), 100 * facts.faster());
       break;
     case P::backlash_contact_resonance:
-      logarithmic(50, 400);  // at a kilohertz, stiffer teeth look the same
+      logarithmic(50 * facts.slower(), 400 * facts.faster());  // at a kilohertz, stiffer teeth look the same
       break;
     case P::coupling_damping_ratio:
     case P::backlash_contact_damping_ratio:
@@ -159,7 +147,7 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       logarithmic(0.05, 10 * facts.longest_recording_s);
       break;
     case P::presliding_stiffness:
-      logarithmic(1e2, 1e6);
+      logarithmic(1e2 * std::pow(facts.slower(), 2), 1e6 * std::pow(facts.faster(), 2));
       break;
     case P::disturbance_duration:
       logarithmic(0.005, facts.longest_recording_s);
@@ -230,13 +218,14 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
     saturations.push_back({{P::saturation_limit, share * facts.most_voltage_V}});
   }
   add(T::voltage_saturation, {P::saturation_limit}, saturations);
-  add(T::armature_lag, {P::armature_time_constant},
-      {{{P::armature_time_constant, 0.0005}}, {{P::armature_time_constant, 0.003}}});
-  add(T::transport_delay, {P::transport_delay},
-      {{{P::transport_delay, 0.0005}}, {{P::transport_delay, 0.003}}});
-
-  std::vector<std::vector<std::pair<P, double>>> stribecks, exponentials, heatings, preslidings, gaps,
-      couplings, spots;
+  std::vector<std::vector<std::pair<P, double>>> lags, delays, stribecks, exponentials, heatings, preslidings,
+      gaps, couplings, spots;
+  for (const double late_s : at_both_rates({0.0005, 0.003}, facts, -1)) {
+    lags.push_back({{P::armature_time_constant, late_s}});
+    delays.push_back({{P::transport_delay, late_s}});
+  }
+  add(T::armature_lag, {P::armature_time_constant}, lags);
+  add(T::transport_delay, {P::transport_delay}, delays);
   for (const double share : {0.03, 0.1, 0.3}) {
     const double v = share * facts.most_speed_m_per_s;
     stribecks.push_back({{P::stribeck_excess, 0.03 * drive}, {P::stribeck_speed, v}});
@@ -252,7 +241,7 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   }
   add(T::motor_heating, {P::heating_gain_loss, P::heating_time_constant}, heatings);
   if (coulomb) {
-    for (const double stiffness : {3e3, 1e4, 3e4, 1e5})
+    for (const double stiffness : at_both_rates({3e3, 1e4, 3e4, 1e5}, facts, 2))
       preslidings.push_back({{P::presliding_stiffness, stiffness}});
     add(T::presliding_friction, {P::presliding_stiffness}, preslidings);
   }
@@ -261,14 +250,14 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
     gaps.push_back({{P::backlash_gap, gap},
                     {P::backlash_load_share, 0.5},
                     {P::backlash_load_damping_share, 0.3},
-                    {P::backlash_contact_resonance, 150},
+                    {P::backlash_contact_resonance, 150 * facts.slower()},
                     {P::backlash_contact_damping_ratio, 0.25}});
   }
   add(T::backlash,
       {P::backlash_gap, P::backlash_load_share, P::backlash_load_friction_share,
        P::backlash_load_damping_share, P::backlash_contact_resonance, P::backlash_contact_damping_ratio},
       gaps);
-  for (const double resonance : {5.0, 9.0, 16.0, 28.0, 50.0}) {
+  for (const double resonance : at_both_rates({5, 9, 16, 28, 50}, facts, 1)) {
     for (const double share : {0.3, 0.6}) {
       couplings.push_back({{P::coupling_resonance, resonance},
                            {P::coupling_damping_ratio, 0.05},

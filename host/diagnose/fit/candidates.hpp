@@ -1,22 +1,25 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "host/diagnose/fit/fit.hpp"
+#include "host/session/motion_range.hpp"
 
 namespace cartwright {
 
 /// What a session excites; start values and ranges of the candidates are set by it, never by guesses about
 /// the cart.
-struct SessionFacts {
+struct SessionFacts : MotionRange {
   double count_m = 0;  ///< of the encoder; 0 where it is not known
-  double position_low_m = 0, position_high_m = 0;
-  double most_voltage_V = 0;      ///< 99.9th percentile of |u|
-  double typical_voltage_V = 0;   ///< root mean square
-  double most_speed_m_per_s = 0;  ///< 99th percentile of the smoothed speed
-  double typical_speed_m_per_s = 0;
+  double sample_rate_hz = 1000;
+  double most_voltage_V = 0;     ///< 99.9th percentile of |u|
+  double typical_voltage_V = 0;  ///< root mean square
   double longest_recording_s = 0;
-  double travel_m() const { return position_high_m - position_low_m; }
+  /// What is fast is looked for where it lies on carts that are read at a kilohertz, and as many ticks of
+  /// this rig away: a machine that is read more seldom may be slower, one read more often faster.
+  double slower() const { return std::min(1.0, sample_rate_hz / 1000); }
+  double faster() const { return std::max(1.0, sample_rate_hz / 1000); }
 };
 SessionFacts facts_of(const Session& session);
 

@@ -4,22 +4,19 @@
 #include <cmath>
 #include <cstddef>
 
+#include "host/session/motion_range.hpp"
+
 namespace cartwright {
 namespace {
 
-constexpr double kAcceleration_m_per_s2 = 0.5;
+constexpr double kSlowAcceleration = 1.0 / 6;  // of v^2 / L
 constexpr double kTimesOverACount = 5;
 constexpr double kMostCounts = 1.5;  // apart, and still within one count but for the digits of a file
 
-}  // namespace
-
-std::vector<bool> rows_at_rest(const Rig& rig, const Recording& recording) {
+/// Rows around which readings stay within one count for `reach` rows.
+std::vector<bool> rows_at_rest(const Recording& recording, double count_m, std::size_t reach) {
   const std::size_t rows = recording.size();
-  const double count_m = rig.encoder_resolution_m;
   std::vector<bool> rests(rows, false);
-  if (!(count_m > 0)) return rests;
-  const double time_s = kTimesOverACount * std::sqrt(2 * count_m / kAcceleration_m_per_s2);
-  const auto reach = static_cast<std::size_t>(time_s * rig.sample_rate_hz) + 1;
 
   // The longest run of readings within one count that ends at each row.
   std::size_t begin = 0;
@@ -46,9 +43,23 @@ std::vector<bool> rows_at_rest(const Rig& rig, const Recording& recording) {
   return rests;
 }
 
+}  // namespace
+
 std::vector<std::vector<bool>> rows_at_rest(const Session& session) {
   std::vector<std::vector<bool>> rests;
-  for (const Recording& r : session.recordings) rests.push_back(rows_at_rest(session.rig, r));
+  const double count_m = session.rig.encoder_resolution_m;
+  if (!(count_m > 0)) {
+    for (const Recording& r : session.recordings) rests.emplace_back(r.size(), false);
+    return rests;
+  }
+  const MotionRange motion = motion_range_of(session.recordings);
+  const double slow_m_per_s2 =
+      kSlowAcceleration * std::pow(motion.most_speed_m_per_s, 2) / std::max(motion.travel_m(), count_m);
+  const double time_s = kTimesOverACount * std::sqrt(2 * count_m / slow_m_per_s2);
+  for (const Recording& r : session.recordings) {
+    const double rows = std::min(time_s * session.rig.sample_rate_hz, static_cast<double>(r.size()));
+    rests.push_back(rows_at_rest(r, count_m, static_cast<std::size_t>(rows) + 1));
+  }
   return rests;
 }
 

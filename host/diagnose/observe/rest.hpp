@@ -2,18 +2,19 @@
 
 #include <vector>
 
-#include "common/config/rig.hpp"
 #include "host/session/session.hpp"
 
 namespace cartwright {
 
-/// Which rows tell no more than that the cart rests: for some time before and after them all readings lie
-/// within one count q of one another. Friction hides the disturbance there and rounding says the same again
-/// and again, so such rows are no measure of the noise. The time is 10 s sqrt(q / 1 m), five times what
-/// 0.5 m/s^2 take over a count (48 ms for 23 um). None where the rig tells no count.
-std::vector<bool> rows_at_rest(const Rig& rig, const Recording& recording);
-
-/// The same of each recording.
+/// Which rows of each recording tell no more than that the cart rests: for some time before and after them
+/// all readings lie within one count q of one another. Friction hides the disturbance there and rounding says
+/// the same again and again, so such rows are no measure of the noise. The time is
+///
+///     t = 5 sqrt(2 q / a),   a = v^2 / (6 L)
+///
+/// five times what a slow acceleration takes over a count: a sixth of what reaches the greatest speed v of
+/// the session over its travel L (MotionRange). 48 ms for 23 um, 0.35 m and 1 m/s. None where the rig tells
+/// no count.
 std::vector<std::vector<bool>> rows_at_rest(const Session& session);
 
 }  // namespace cartwright

@@ -37,7 +37,7 @@ std::vector<std::vector<Model>> lines(const Model& from, const SessionFacts& fac
                            .set(P::backlash_load_share, 0.5)
                            .set(P::backlash_load_friction_share, friction_share)
                            .set(P::backlash_load_damping_share, damping_share)
-                           .set(P::backlash_contact_resonance, 250)
+                           .set(P::backlash_contact_resonance, 250 * facts.slower())
                            .set(P::backlash_contact_damping_ratio, 0.2));
       }
     }

@@ -79,9 +79,10 @@ void what(Report& page, const Diagnosis& d) {
     }
   }
   if (!effects.rows.empty()) page.table(effects);
-  Table places{"Where they act: the stretch that holds most of an effect's push, at twice its mean power and "
-               "more; along other axes it acts everywhere",
-               {{"effect"}, {"axis"}, {"from"}, {"to"}, {"unit"}}};
+  Table places{
+      "Where they act: the stretch that holds most of an effect's push, at twice its mean power and "
+      "more; along other axes it acts everywhere",
+      {{"effect"}, {"axis"}, {"from"}, {"to"}, {"unit"}}};
   for (const Effect& effect : d.effects) {
     for (const auto& [axis, stretch] : effect.where) {
       if (!stretch.empty())
