@@ -18,6 +18,7 @@ constexpr std::size_t kLeastRows = 4;
 /// does not swallow them, small against the motion.
 constexpr double kTrialPosition = 3e-5;
 constexpr double kTrialVelocity = 1e-3;
+constexpr double kWide = 10;
 /// Of the greatest speed: below it the cart may stand.
 constexpr double kSlow = 0.05;
 
@@ -60,15 +61,18 @@ class Replay {
     }
   }
 
-  /// The start state that fits rows [first, last) best from either the data's own slope or standstill.
+  /// The start state that fits rows [first, last) best from the data's own slope; of a cart that may stand
+  /// also from standstill, and from where wide trials lead, which see over the kinks of friction.
   Start fit(const Plant& before, std::size_t first, std::size_t last) {
     const Start moving = slope(first, last);
     Start best = moving;
     double best_cost = refine(before, best, first, last);
-    if (std::abs(moving.velocity_m_per_s) <= slow_m_per_s_) {
-      Start still{moving.position_m, 0};
-      const double cost = refine(before, still, first, last);
-      if (cost < best_cost) best = still;
+    if (std::abs(moving.velocity_m_per_s) > slow_m_per_s_) return best;
+    Start still{moving.position_m, 0}, beyond_kinks = moving;
+    refine(before, beyond_kinks, first, last, kWide);
+    for (Start start : {still, beyond_kinks}) {
+      const double cost = refine(before, start, first, last);
+      if (cost < best_cost) best = start, best_cost = cost;
     }
     return best;
   }
@@ -143,19 +147,18 @@ class Replay {
   }
 
   /// Gauss-Newton with Levenberg damping and forward differences; returns the squared error at the improved
-  /// start.
-  double refine(const Plant& before, Start& start, std::size_t first, std::size_t last) {
+  /// start. `trials` times the usual change is tried.
+  double refine(const Plant& before, Start& start, std::size_t first, std::size_t last, double trials = 1) {
+    const double dy = trials * trial_position_m_, dv = trials * trial_velocity_m_per_s_;
     double now = try_start(before, start, first, last, base_m_);
     double damping = 1e-6;
     for (int iteration = 0; iteration < options_.iterations; ++iteration) {
-      try_start(before, {start.position_m + trial_position_m_, start.velocity_m_per_s}, first, last,
-                by_position_m_);
-      try_start(before, {start.position_m, start.velocity_m_per_s + trial_velocity_m_per_s_}, first, last,
-                by_velocity_m_);
+      try_start(before, {start.position_m + dy, start.velocity_m_per_s}, first, last, by_position_m_);
+      try_start(before, {start.position_m, start.velocity_m_per_s + dv}, first, last, by_velocity_m_);
       double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
       for (std::size_t i = 0; i < base_m_.size(); ++i) {
-        const double a = (by_position_m_[i] - base_m_[i]) / trial_position_m_;
-        const double b = (by_velocity_m_[i] - base_m_[i]) / trial_velocity_m_per_s_;
+        const double a = (by_position_m_[i] - base_m_[i]) / dy;
+        const double b = (by_velocity_m_[i] - base_m_[i]) / dv;
         const double r = recording_.y_m[first + i] - base_m_[i];
         aa += a * a;
         ab += a * b;

@@ -27,9 +27,9 @@ struct ReplayedMotion {
 
 /// The recorded voltage replayed on a model over consecutive windows. In each window the start state (y0, v0)
 /// of the cart is the one that minimises the squared position error of that window (Gauss-Newton with a step
-/// guard); what else the model holds at that moment (voltages on their way through a delay, armature,
-/// bristle, the motor's place in a backlash) is what the window before left, and rest at the start of a
-/// recording or after a gap. Windows never cross a gap.
+/// guard, from several starts where the cart may stand); what else the model holds at that moment (voltages
+/// on their way through a delay, armature, bristle, the motor's place in a backlash) is what the window
+/// before left, and rest at the start of a recording or after a gap. Windows never cross a gap.
 ///
 /// Returns the predicted reading [m] of every row, not rounded to counts; NaN in stretches of fewer than four
 /// rows (and so is `motion`, where asked for). Depends on its arguments alone and may be called from several
