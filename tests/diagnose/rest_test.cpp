@@ -16,7 +16,7 @@ constexpr double kCount_m = 1e-4;
 constexpr double kAmplitude_m = 0.05, kRadians_per_s = 6.3;
 /// 5 sqrt(2 q / a), where v is the greatest speed of a sine and L its travel.
 const double kReach_s =
-    5 * std::sqrt(2 * kCount_m * 6 * 2 * kAmplitude_m / std::pow(kRadians_per_s * kAmplitude_m, 2));
+    5 * std::sqrt(2 * kCount_m * 2 * 2 * kAmplitude_m / std::pow(kRadians_per_s * kAmplitude_m, 2));
 
 /// Two seconds of readings, in counts.
 Recording readings(const std::function<double(double t_s)>& counts) {

@@ -13,15 +13,15 @@ namespace {
 
 using P = Parameter;
 
-/// Three steps to and fro with time to come to rest, by a cart that is exactly `model` but for the rounding
+/// Three steps to and fro with time to creep to rest, by a cart that is exactly `model` but for the rounding
 /// of its readings.
 Session steps_of(const Model& model) {
   constexpr double kHold_s = 1.6, kStep_m = 0.1;
   Session session;
-  session.rig.encoder_resolution_m = 2.275e-5;
+  session.rig.encoder_resolution_m = 1e-4;
   for (const char* file : {"step_1.csv", "step_2.csv", "step_3.csv"}) {
     Recording r;
-    r.file = file, r.experiment = "step", r.controller = PdGains{60, 0, 50, false};
+    r.file = file, r.experiment = "step", r.controller = PdGains{20, 0, 50, false};
     for (int k = 0; k < 6000; ++k) {
       r.t_s.push_back(k * session.rig.period_s());
       r.r_m.push_back(std::fmod(r.t_s.back(), 2 * kHold_s) < kHold_s ? kStep_m : 0);

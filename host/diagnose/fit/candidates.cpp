@@ -104,7 +104,7 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
       logarithmic(1e-3 * travel, 2 * travel);
       break;
     case P::eccentricity_amplitude:
-      free.scale = 1e-4;
+      free.scale = 3e-4 * travel;
       break;
     case P::backlash_gap:
       logarithmic(1e-6 * travel, 0.1 * travel);

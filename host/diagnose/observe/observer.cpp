@@ -69,7 +69,7 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
 
   std::optional<TwoMassGain> two_masses;
   if (model.has(Term::backlash)) {
-    const double count_m = std::max(rig.encoder_resolution_m, kFinestReading_m);
+    const double count_m = rig.encoder_resolution_m > 0 ? rig.encoder_resolution_m : kFinestReading_m;
     two_masses.emplace(model, gains.noise, rig.period_s(), gains.damping_per_s, count_m);
   }
 

@@ -9,7 +9,6 @@
 namespace cartwright {
 namespace {
 
-constexpr double kSlowAcceleration = 1.0 / 6;  // of v^2 / L
 constexpr double kTimesOverACount = 5;
 constexpr double kMostCounts = 1.5;  // apart, and still within one count but for the digits of a file
 
@@ -54,7 +53,7 @@ std::vector<std::vector<bool>> rows_at_rest(const Session& session) {
   }
   const MotionRange motion = motion_range_of(session.recordings);
   const double slow_m_per_s2 =
-      kSlowAcceleration * std::pow(motion.most_speed_m_per_s, 2) / std::max(motion.travel_m(), count_m);
+      std::pow(motion.most_speed_m_per_s, 2) / (2 * std::max(motion.travel_m(), count_m));
   const double time_s = kTimesOverACount * std::sqrt(2 * count_m / slow_m_per_s2);
   for (const Recording& r : session.recordings) {
     const double rows = std::min(time_s * session.rig.sample_rate_hz, static_cast<double>(r.size()));
