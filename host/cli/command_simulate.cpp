@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -21,12 +22,14 @@ Outcome run(const Options& options) {
   auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
   tell_gaps(*session);
-  for (Recording& recording : session->recordings) {
-    if (!recording.has_controller())
-      fmt::print(stderr, "cartwright: note: {}: no control law, its recorded voltage is replayed\n",
-                 recording.file);
-    recording = simulate(*model, session->rig, recording);
-  }
+  const auto foreign = std::count_if(session->recordings.begin(), session->recordings.end(),
+                                     [](const Recording& r) { return !r.has_controller(); });
+  if (foreign > 0)
+    fmt::print(
+        stderr,
+        "cartwright: note: {} of {} recordings come without a control law: their voltage is replayed\n",
+        foreign, session->recordings.size());
+  for (Recording& recording : session->recordings) recording = simulate(*model, session->rig, recording);
   const auto written = write_session(*session, options.out);
   if (!written) return tl::unexpected(written.error());
   return Status::done;

@@ -34,9 +34,10 @@ constexpr double kSureOfChange = 0.997;  // of three numbers or so one is off by
 /// The best candidate is refused when structure is left that chance does not make and, of the excess error of
 /// the windows, more than a fifth is still there; or two fifths of the likelihood to be gained.
 constexpr double kMostLeftOfWindows = 0.2;
-constexpr double kWorthTelling = 0.05;       // of the likelihood
 constexpr double kShowsMismatch = 1.5;  // window error over noise floor
 constexpr double kMostLeftOfLikelihood = 0.4;
+/// So much of it left is worth telling beside a name.
+constexpr double kWorthTelling = 0.05;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;
@@ -59,7 +60,7 @@ class Diagnostician {
  public:
   Diagnostician(const Session& session, const Model& nominal, const DiagnoseOptions& options)
       : session_(session), nominal_(nominal), options_(options) {
-    fit_options_.damping_per_s = linear_damping(nominal);
+    fit_options_ = options_for(session, nominal);
   }
 
   Diagnosis run() {
@@ -68,6 +69,7 @@ class Diagnostician {
     SearchOptions search;
     search.threads = options_.threads;
     search.held = options_.held;
+    search.fit = fit_options_;
     search.progress = [this](std::string_view what, double share) { report(what, 0.8 * share); };
     search_for_physics(used, search);
     if (!held.empty() && is_worth_using(held, used)) {
@@ -104,6 +106,7 @@ class Diagnostician {
     result_.search = explain(used, nominal_, search);
     result_.before = located(used, result_.search.refitted.fit);
     search.least_gain *= result_.before.beyond_chance;
+    least_gain_ = search.least_gain;
     const auto gains_too_little = [&](const Contest& one) { return one.gain < search.least_gain; };
     const std::vector<Contest>& contests = result_.search.contests;
     if (std::any_of(contests.begin(), contests.end(), gains_too_little))
@@ -118,9 +121,14 @@ class Diagnostician {
   }
 
   Location located(const Session& session, const Fit& fit) const {
+    const FitOptions options = with_threads();
+    return locate(session, fit, alike(session, fit, options), options);
+  }
+
+  FitOptions with_threads() const {
     FitOptions options = fit_options_;
     options.threads = options_.threads;
-    return locate(session, fit, alike(session, fit, options), options);
+    return options;
   }
 
   double nats_left() const { return kGainOverPromise * structure_left(result_.after); }
@@ -181,7 +189,7 @@ class Diagnostician {
     if (!held.empty())
       result_.held_out.with_effects = window_rmse_m(result_.model, only(session_, held), options_.threads);
     const Fit as_it_is = fit(used, result_.model, result_.search.best.fit.noise, {}, fit_options_);
-    result_.effects.front().where = where_it_acts(Term::cogging, used, as_it_is, fit_options_);
+    result_.effects.front().where = where_it_acts(Term::cogging, used, as_it_is, with_threads());
     result_.after = located(used, as_it_is);
     describe_left_over(drive->share_left(), "");
     result_.unexplained->closest.reset();
@@ -273,7 +281,7 @@ class Diagnostician {
     const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
     for (const Contest& contest : found.contests) {
       Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, {}, ""};
-      effect.where = where_it_acts(contest.chosen, repaired, found.best.fit, fit_options_);
+      effect.where = where_it_acts(contest.chosen, repaired, found.best.fit, with_threads());
       if (contest.chosen == Term::encoder_missed_counts) {
         effect.parameters = lost_counts(repaired, found.best.jumps, result_.model);
       } else {
@@ -310,7 +318,8 @@ class Diagnostician {
       const double weight = weight_of_rival(behind);
       evidence.margin_nats = std::min(evidence.margin_nats, behind);
       evidence.rivals += weight;
-      if (!told_apart(contest, other, unexplained)) effect.equivalent.push_back(other.effects.back());
+      if (!told_apart(contest, other, unexplained, least_gain_))
+        effect.equivalent.push_back(other.effects.back());
       result_.runner_up.push_back({other.effects.back(), contest.chosen, weight, behind});
     }
     evidence.equivalent = static_cast<int>(effect.equivalent.size());
@@ -365,6 +374,7 @@ class Diagnostician {
   WindowErrors windows_used_, windows_unseen_;
   double held_floor_m_ = 0;
   bool drive_only_balances_ = false;
+  double least_gain_ = kLeastGain;  ///< that an effect had to have
 };
 
 }  // namespace

@@ -67,7 +67,7 @@ class Replay {
     const Start moving = slope(first, last);
     Start best = moving;
     double best_cost = refine(before, best, first, last);
-    if (std::abs(moving.velocity_m_per_s) > slow_m_per_s_) return best;
+    if (!may_stand(moving.velocity_m_per_s, first, last)) return best;
     Start still{moving.position_m, 0}, beyond_kinks = moving;
     refine(before, beyond_kinks, first, last, kWide);
     for (Start start : {still, beyond_kinks}) {
@@ -128,6 +128,17 @@ class Replay {
     }
     const double velocity = (count * ty - t * y) / (count * tt - t * t);
     return {recording_.y_m[first] + (y - velocity * t) / count, velocity};
+  }
+
+  /// Slow against the recording, or seen to move by no more than one step between two readings.
+  bool may_stand(double velocity_m_per_s, std::size_t first, std::size_t last) const {
+    if (std::abs(velocity_m_per_s) <= slow_m_per_s_) return true;
+    const std::vector<double>& y = recording_.y_m;
+    const std::size_t end = first + std::min(kSlopeRows, last - first);
+    double most_step_m = 0;
+    for (std::size_t row = first + 1; row < end; ++row)
+      most_step_m = std::max(most_step_m, std::abs(y[row] - y[row - 1]));
+    return std::abs(y[end - 1] - y[first]) <= most_step_m;
   }
 
   double cost(const std::vector<double>& predicted_m, std::size_t first) const {
@@ -193,7 +204,7 @@ class Replay {
   const ReplayOptions& options_;
   PlantOptions plant_options_;
   Encoder encoder_;
-  /// Of a cart that never moves any will do.
+  /// Where no reading differs from another any will do.
   double trial_position_m_ = 1e-6, trial_velocity_m_per_s_ = 1e-3, slow_m_per_s_ = 0;
   std::vector<double> base_m_, trial_m_, by_position_m_, by_velocity_m_;
 };

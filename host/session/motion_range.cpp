@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "host/statistics/sample.hpp"
 
 namespace cartwright {
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
 
 MotionRange motion_range_of(std::span<const Recording> recordings) {
   constexpr double kSpeedSpan_s = 0.02;
@@ -25,7 +16,9 @@ MotionRange motion_range_of(std::span<const Recording> recordings) {
   for (const Recording& r : recordings) {
     position.insert(position.end(), r.y_m.begin(), r.y_m.end());
     if (r.size() < 2) continue;
-    const double period_s = (r.t_s.back() - r.t_s.front()) / static_cast<double>(r.size() - 1);
+    std::vector<double> steps_s;
+    for (std::size_t k = 1; k < r.size(); ++k) steps_s.push_back(r.t_s[k] - r.t_s[k - 1]);
+    const double period_s = percentile(std::move(steps_s), 0.5);
     const auto span = static_cast<std::size_t>(std::max(1L, std::lround(kSpeedSpan_s / period_s)));
     for (std::size_t k = span; k < r.size(); ++k) {
       speed.push_back(std::abs(r.y_m[k] - r.y_m[k - span]) / (r.t_s[k] - r.t_s[k - span]));
@@ -34,8 +27,9 @@ MotionRange motion_range_of(std::span<const Recording> recordings) {
   MotionRange motion;
   motion.position_low_m = percentile(position, 0.001);
   motion.position_high_m = percentile(position, 0.999);
-  motion.most_speed_m_per_s = percentile(speed, 0.99);
   motion.typical_speed_m_per_s = root_mean_square(speed);
+  // Of a cart that hardly ever moves the percentile is zero.
+  motion.most_speed_m_per_s = std::max(percentile(speed, 0.99), motion.typical_speed_m_per_s);
   return motion;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "host/session/session.hpp"
 
@@ -10,15 +9,10 @@ namespace cartwright {
 /// How far and how fast recordings move: what is small or large against that needs no unit.
 struct MotionRange {
   double position_low_m = 0, position_high_m = 0;  ///< 0.1st and 99.9th percentile
-  double most_speed_m_per_s = 0;                   ///< 99th percentile of the speed over 20 ms
-  double typical_speed_m_per_s = 0;                ///< root mean square of it
+  double most_speed_m_per_s = 0;                   ///< 99th percentile of the speed over 20 ms, no less than
+  double typical_speed_m_per_s = 0;                ///< its root mean square
   double travel_m() const { return position_high_m - position_low_m; }
 };
 MotionRange motion_range_of(std::span<const Recording> recordings);
-
-/// The value that a share of all lies below; 0 of none.
-double percentile(std::vector<double> values, double share);
-
-double root_mean_square(const std::vector<double>& values);
 
 }  // namespace cartwright

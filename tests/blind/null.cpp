@@ -9,8 +9,7 @@ namespace cartwright::blind {
 
 std::vector<double> greatest_gains_of_nothing(const Session& clean, const Model& nominal,
                                               std::size_t surrogates, std::uint64_t seed) {
-  FitOptions options;
-  options.damping_per_s = linear_damping(nominal);
+  const FitOptions options = options_for(clean, nominal);
   const Fit refitted = fit(clean, nominal, search_noise(clean, nominal, options),
                            free_parameters(nominal, facts_of(clean)), options);
   const NoiseSize noise = noise_size(refitted, clean.rig, options.damping_per_s);

@@ -22,8 +22,7 @@ Session twice(const Session& session, bool as_repeats) {
 
 double gain_error(const Session& session) {
   const Model start = test::nominal();
-  FitOptions options;
-  options.damping_per_s = linear_damping(start);
+  const FitOptions options = options_for(session, start);
   return fit(session, start, {}, free_parameters(start, facts_of(session)), options)
       .standard_error(Parameter::voltage_gain);
 }

@@ -38,7 +38,8 @@ Session beside_a_sine(const Recording& r) {
 }
 
 std::vector<bool> rests_of(const Recording& r) {
-  return rows_at_rest(beside_a_sine(r)).front();
+  const Session session = beside_a_sine(r);
+  return rows_at_rest(session, time_at_rest_s(session)).front();
 }
 
 std::size_t resting(const Recording& r) {
@@ -82,18 +83,19 @@ TEST(Rest, IsTheSameBackwards) {
 
 TEST(Rest, IsTheSameInOtherUnitsOfLength) {
   Session session = beside_a_sine(readings([](double t) { return 3 + 6 * t * t; }));
-  const std::vector<std::vector<bool>> in_metres = rows_at_rest(session);
+  const std::vector<std::vector<bool>> in_metres = rows_at_rest(session, time_at_rest_s(session));
   session.rig.encoder_resolution_m *= 1000;
   for (Recording& r : session.recordings) {
     for (double& y : r.y_m) y *= 1000;
   }
-  EXPECT_EQ(rows_at_rest(session), in_metres);
+  EXPECT_EQ(rows_at_rest(session, time_at_rest_s(session)), in_metres);
 }
 
 TEST(Rest, IsNotToldWithoutACount) {
   Session session = beside_a_sine(readings([](double) { return 7; }));
   session.rig.encoder_resolution_m = 0;
-  for (const std::vector<bool>& rests : rows_at_rest(session))
+  EXPECT_EQ(time_at_rest_s(session), 0);
+  for (const std::vector<bool>& rests : rows_at_rest(session, 0))
     EXPECT_EQ(std::count(rests.begin(), rests.end(), true), 0);
 }
 

@@ -14,7 +14,8 @@ namespace {
 using P = Parameter;
 
 /// Three steps to and fro with time to creep to rest, by a cart that is exactly `model` but for the rounding
-/// of its readings.
+/// of its readings. The encoder is coarse and the controller soft, so that it creeps on for seconds at counts
+/// that follow each other too soon for it to rest.
 Session steps_of(const Model& model) {
   constexpr double kHold_s = 1.6, kStep_m = 0.1;
   Session session;
@@ -42,8 +43,7 @@ TEST(RoundingOnly, WhatACreepingCartSeemsToLackOneThatIsTheModelLacksAsWell) {
                           .set(P::cogging_amplitude, 0.1)
                           .set(P::cogging_period, 0.016);
   const Session session = steps_of(truth);
-  FitOptions options;
-  options.damping_per_s = linear_damping(truth);
+  const FitOptions options = options_for(session, truth);
   const Fit found = fit(session, truth, search_noise(session, truth, options),
                         free_parameters(truth, facts_of(session)), options);
   const Location location = locate(session, found, alike(session, found, options), options);

@@ -17,11 +17,12 @@ Explanation behind_by(double behind_nats) {
 }
 
 Contest contest_that_gained(double gain_nats) {
-  return {Term::asymmetric_viscous_friction, gain_nats, behind_by(0), {}};
+  const Explanation winner = behind_by(0);
+  return {Term::asymmetric_viscous_friction, gain_nats, winner.score() - gain_nats, winner, {}};
 }
 
 TEST(ToldApart, WhatIsFarBehindIsWhereAllIsExplained) {
-  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(300), 0));
+  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(300), 0, kLeastGain));
 }
 
 TEST(ToldApart, WhatIsWithinChanceIsNot) {
@@ -29,20 +30,26 @@ TEST(ToldApart, WhatIsWithinChanceIsNot) {
   other.fit.block_loss_m2.front() += 2;   // a nat in one block ...
   other.fit.block_loss_m2.back() -= 1.5;  // ... and the other way in another
   other.fit.log_likelihood = -0.25;
-  EXPECT_FALSE(told_apart(contest_that_gained(800), other, 0));
+  EXPECT_FALSE(told_apart(contest_that_gained(800), other, 0, kLeastGain));
 }
 
 TEST(ToldApart, LittleBehindButInEveryBlockIs) {
-  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(9), 0));
+  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(9), 0, kLeastGain));
+}
+
+TEST(ToldApart, WhatIsLeftMayBeAllOfASmallDifferenceToo) {
+  EXPECT_FALSE(told_apart(contest_that_gained(800), behind_by(9), 300, kLeastGain));
 }
 
 TEST(ToldApart, WhatIsLeftMayBeAllOfTheDifference) {
-  EXPECT_FALSE(told_apart(contest_that_gained(800), behind_by(300), 301));
-  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(300), 299));
+  EXPECT_FALSE(told_apart(contest_that_gained(800), behind_by(300), 301, kLeastGain));
+  EXPECT_TRUE(told_apart(contest_that_gained(800), behind_by(300), 299, kLeastGain));
 }
 
 TEST(ToldApart, WhatGainsTooLittleForANameIsWhateverIsLeft) {
-  EXPECT_TRUE(told_apart(contest_that_gained(300), behind_by(295), 1000));
+  EXPECT_FALSE(told_apart(contest_that_gained(300), behind_by(280), 1000, kLeastGain));
+  EXPECT_TRUE(told_apart(contest_that_gained(300), behind_by(280), 1000, 2 * kLeastGain));
+  EXPECT_TRUE(told_apart(contest_that_gained(300), behind_by(295), 1000, kLeastGain));
 }
 
 }  // namespace

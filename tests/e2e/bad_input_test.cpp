@@ -344,7 +344,7 @@ TEST(BadInput, ARecordingWithoutItsControlLawIsSaidToBeReplayed) {
                                         scratch.text("session"), "--out", scratch.text("out")});
   EXPECT_EQ(finished.status, 0);
   EXPECT_EQ(finished.err,
-            "cartwright: note: step.csv: no control law, its recorded voltage is replayed\n");
+            "cartwright: note: 1 of 1 recordings come without a control law: their voltage is replayed\n");
 }
 
 TEST(BadInput, AnOutputThatIsNoDirectoryIsRefused) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/statistics/sample.hpp"
+
 namespace cartwright {
 namespace {
 
@@ -12,7 +14,7 @@ using T = Term;
 /// Starts at a kilohertz of something that goes with the rate to a power, and the same in ticks of the rig.
 std::vector<double> at_both_rates(std::vector<double> starts, const SessionFacts& facts, double power) {
   constexpr double kOtherRate = 1.5;
-  const double rate = facts.slower() * facts.faster();
+  const double rate = facts.sample_rate_hz / 1000;
   if (rate < kOtherRate && rate > 1 / kOtherRate) return starts;
   for (std::size_t i = 0, usual = starts.size(); i < usual; ++i)
     starts.push_back(starts[i] * std::pow(rate, power));
@@ -180,7 +182,14 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   const auto add = [&](T term, std::vector<P> free, std::vector<std::vector<std::pair<P, double>>> starts) {
     if (model.has(term)) return;
     Candidate candidate{term, {}, std::move(starts)};
-    for (const P id : free) candidate.free.push_back(free_parameter(id, facts, model));
+    for (const P id : free) {
+      const FreeParameter& p = candidate.free.emplace_back(free_parameter(id, facts, model));
+      for (auto& start : candidate.starts) {
+        for (auto& [started, value] : start) {
+          if (started == id) value = std::clamp(value, p.lower, p.upper);
+        }
+      }
+    }
     list.push_back(std::move(candidate));
   };
   const double speed = facts.typical_speed_m_per_s, travel = facts.travel_m();

@@ -279,7 +279,7 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   parallel_for(observations.size(), options.threads, [&](std::size_t n) {
     observations[n] = observe(model, gains, session.rig, session.recordings[n], observer);
   });
-  const std::vector<std::vector<bool>> rests = rows_at_rest(session);
+  const std::vector<std::vector<bool>> rests = rows_at_rest(session, options.rest_s);
   for (std::size_t n = 0; n < observations.size(); ++n) {
     const Observation& seen = observations[n];
     for (std::size_t k = skip; k < seen.error_m.size(); ++k) {
@@ -306,6 +306,13 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   }
   const double count = session.rig.encoder_resolution_m;
   return {std::move(all), std::max(counted, 1.0), variance_ratio * count * count / 12};
+}
+
+FitOptions options_for(const Session& session, const Model& nominal) {
+  FitOptions options;
+  options.damping_per_s = linear_damping(nominal);
+  options.rest_s = time_at_rest_s(session);
+  return options;
 }
 
 NoiseModel search_noise(const Session& session, const Model& model, const FitOptions& options) {

@@ -27,8 +27,12 @@ struct FitOptions {
   double difference_step = 2e-3;    ///< of the finite differences, in units of a parameter's scale
   double step_s = 1e-3;             ///< greatest inner step of the plant
   double damping_per_s = 5;         ///< of the linear cart behind the observer's gain
+  double rest_s = 0;                ///< a cart that stays within a count for so long rests (rest.hpp)
   unsigned threads = 1;             ///< of a pass, which then takes so many recordings at a time
 };
+
+/// Options for a session and its nominal model: damping and time of rest, the same for all that is compared.
+FitOptions options_for(const Session& session, const Model& nominal);
 
 /// A model fitted by the likelihood of its one-step prediction errors,
 ///

@@ -14,10 +14,10 @@ double paired_z(const Fit& better, const Fit& worse) {
 
 }  // namespace
 
-bool told_apart(const Contest& contest, const Explanation& other, double nats_left) {
+bool told_apart(const Contest& contest, const Explanation& other, double nats_left, double least_gain) {
   const double behind = contest.winner.score() - other.score();
-  if (behind < kChance_nats) return paired_z(contest.winner.fit, other.fit) >= kChance_z;
-  return behind >= nats_left || contest.gain - behind < kLeastGain;
+  if (behind < kChance_nats && paired_z(contest.winner.fit, other.fit) < kChance_z) return false;
+  return behind >= nats_left || other.score() - contest.without < least_gain;
 }
 
 }  // namespace cartwright

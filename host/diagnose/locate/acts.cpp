@@ -1,6 +1,7 @@
 #include "host/diagnose/locate/acts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <complex>
 #include <unsupported/Eigen/FFT>
 #include <utility>
@@ -42,23 +43,24 @@ std::vector<double> strongest_stretch(const AxisBins& axis, const std::vector<st
     }
   }
   std::vector<double> best;
-  double most = 0, excess = 0, part = 0;
+  double most = 0, best_part = 0, excess = 0, part = 0;
   std::size_t from = 0;
   for (std::size_t b = 0; b < power.size() && all_power > 0; ++b) {
     if (excess <= 0) from = b, excess = part = 0;
     part += power[b] / all_power;
     excess += power[b] / all_power - kMuch * rows[b] / all_rows;
-    if (excess > most && part > kGoodPart) most = excess, best = {axis.edges[from], axis.edges[b + 1]};
+    if (excess > most) most = excess, best_part = part, best = {axis.edges[from], axis.edges[b + 1]};
   }
-  return best;
+  return best_part > kGoodPart ? best : std::vector<double>{};
 }
 
 /// The band that holds the middle of the power.
 std::vector<double> band(const Rig& rig, const std::vector<std::vector<double>>& push) {
   std::vector<std::pair<double, double>> power;  // at a frequency
   double all = 0;
-  for (const std::vector<double>& one : push) {
+  for (std::vector<double> one : push) {
     if (one.size() < 2) continue;
+    one.resize(std::bit_ceil(one.size()));  // of a length that is prime the transform takes a square of it
     std::vector<std::complex<double>> spectrum;
     Eigen::FFT<double>().fwd(spectrum, one);
     const auto rows = static_cast<double>(one.size());

@@ -8,11 +8,11 @@ namespace cartwright {
 /// the cart's acceleration at each row less what it does without the effect, both held to the readings.
 ///
 /// - Along an axis of bins: the stretch of neighbouring bins that holds most of the push's power beyond twice
-///   its mean over all rows in which the cart moves, and a quarter of it at least. Empty where there is none:
-///   it acts everywhere.
+///   its mean over all rows in which the cart moves, and a quarter of it at least; of two ends, the stronger.
+///   Empty where there is none: it acts everywhere.
 /// - `frequency_hz`: from the 10th to the 90th percentile of the power of the push.
 ///
-/// An error of the encoder pushes nothing: empty everywhere.
+/// A disturbance acts from its start to its end. An error of the encoder pushes nothing: empty everywhere.
 Where where_it_acts(Term effect, const Session& session, const Fit& fit, const FitOptions& options);
 
 }  // namespace cartwright

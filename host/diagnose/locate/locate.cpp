@@ -30,11 +30,13 @@ struct Observed {
   std::vector<std::vector<bool>> rests;
 };
 
-Observed observed(const Session& session, const Model& model, const ObserverGains& gains, unsigned threads) {
+Observed observed(const Session& session, const Model& model, const ObserverGains& gains,
+                  const FitOptions& options) {
   ObserverOptions keep;
   keep.keep_states = true;
-  Observed out{std::vector<Observation>(session.recordings.size()), {}, rows_at_rest(session)};
-  parallel_for(out.seen.size(), threads, [&](std::size_t n) {
+  Observed out{
+      std::vector<Observation>(session.recordings.size()), {}, rows_at_rest(session, options.rest_s)};
+  parallel_for(out.seen.size(), options.threads, [&](std::size_t n) {
     out.seen[n] = observe(model, gains, session.rig, session.recordings[n], keep);
   });
   out.axes = axes_of(session, out.seen);
@@ -186,8 +188,8 @@ Location locate(const Session& session, const Fit& fit, const Alike& alike, cons
   Location location;
   const unsigned threads = options.threads;
   const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
-  const Observed here = observed(session, fit.model, gains, threads);
-  const Observed there = observed(alike.session, fit.model, gains, threads);
+  const Observed here = observed(session, fit.model, gains, options);
+  const Observed there = observed(alike.session, fit.model, gains, options);
   const std::vector<AxisBins>& axes = here.axes;
 
   const Basis basis = basis_of(fit, options.outlier_m);

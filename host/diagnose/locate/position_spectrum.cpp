@@ -48,7 +48,7 @@ class WaveColumns {
       : session_(session),
         gains_(observer_gains(base.noise, session.rig.period_s(), options.damping_per_s)),
         damping_per_s_(options.damping_per_s),
-        rests_(rows_at_rest(session)) {
+        rests_(rows_at_rest(session, options.rest_s)) {
     ObserverOptions keep;
     keep.keep_states = true;
     for (const Recording& r : session.recordings)

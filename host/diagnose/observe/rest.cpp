@@ -44,20 +44,24 @@ std::vector<bool> rows_at_rest(const Recording& recording, double count_m, std::
 
 }  // namespace
 
-std::vector<std::vector<bool>> rows_at_rest(const Session& session) {
-  std::vector<std::vector<bool>> rests;
+double time_at_rest_s(const Session& session) {
   const double count_m = session.rig.encoder_resolution_m;
-  if (!(count_m > 0)) {
-    for (const Recording& r : session.recordings) rests.emplace_back(r.size(), false);
-    return rests;
-  }
+  if (!(count_m > 0)) return 0;
   const MotionRange motion = motion_range_of(session.recordings);
   const double slow_m_per_s2 =
       std::pow(motion.most_speed_m_per_s, 2) / (2 * std::max(motion.travel_m(), count_m));
-  const double time_s = kTimesOverACount * std::sqrt(2 * count_m / slow_m_per_s2);
+  return kTimesOverACount * std::sqrt(2 * count_m / slow_m_per_s2);
+}
+
+std::vector<std::vector<bool>> rows_at_rest(const Session& session, double time_s) {
+  std::vector<std::vector<bool>> rests;
   for (const Recording& r : session.recordings) {
+    if (!(time_s > 0)) {
+      rests.emplace_back(r.size(), false);
+      continue;
+    }
     const double rows = std::min(time_s * session.rig.sample_rate_hz, static_cast<double>(r.size()));
-    rests.push_back(rows_at_rest(r, count_m, static_cast<std::size_t>(rows) + 1));
+    rests.push_back(rows_at_rest(r, session.rig.encoder_resolution_m, static_cast<std::size_t>(rows) + 1));
   }
   return rests;
 }

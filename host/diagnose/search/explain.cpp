@@ -37,7 +37,7 @@ class Explainer {
  public:
   Explainer(const Session& session, const Model& nominal, const SearchOptions& options)
       : session_(session), nominal_(nominal), options_(options), facts_(facts_of(session)) {
-    fit_options_.damping_per_s = linear_damping(nominal);
+    fit_options_ = options.fit.value_or(options_for(session, nominal));
     fit_options_.threads = options.threads;  // where fits run side by side, the last one gets them all
   }
 
@@ -66,8 +66,11 @@ class Explainer {
         if (std::exchange(went_on, true)) break;  // once more, from there
         continue;
       }
-      Contest contest{
-          tried.front().effects.back(), tried.front().score() - search.best.score(), tried.front(), {}};
+      Contest contest{tried.front().effects.back(),
+                      tried.front().score() - search.best.score(),
+                      search.best.score(),
+                      tried.front(),
+                      {}};
       search.best = tried.front();
       contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
                                   std::make_move_iterator(tried.end()));
@@ -333,7 +336,8 @@ class Explainer {
         Explanation beaten = search.best;
         std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
                     beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
-        contest = {swapped.effects[i], contest.gain + better, swapped, {std::move(beaten)}};
+        const double gain = contest.gain + better;
+        contest = {swapped.effects[i], gain, swapped.score() - gain, swapped, {std::move(beaten)}};
         search.best = swapped;
       }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace cartwright {
 struct Contest {
   Term chosen;
   double gain = 0;                        ///< of the chosen over doing without, in nats, net of its numbers
+  double without = 0;                     ///< score of doing without, as it stood then
   Explanation winner;                     ///< with the chosen, as it stood then
   std::vector<Explanation> alternatives;  ///< other terms in its place, best first
 };
@@ -29,6 +31,7 @@ struct SearchOptions {
   unsigned threads = 2;
   std::size_t most_effects = 3;  ///< besides the terms that every cart has: viscous, Coulomb, constant force
   double least_gain = kLeastGain;  ///< of an effect
+  std::optional<FitOptions> fit;   ///< those for the session and the nominal model, if none are given
   std::vector<Parameter> held;     ///< of the nominal model: kept as given, because this session cannot tell
   std::function<void(std::string_view what, double share_done)> progress;
 };

@@ -80,8 +80,8 @@ void what(Report& page, const Diagnosis& d) {
   }
   if (!effects.rows.empty()) page.table(effects);
   Table places{
-      "Where they act: the stretch that holds most of an effect's push, at twice its mean power and "
-      "more; along other axes it acts everywhere",
+      "Where they act: the stretch, of two ends the stronger, on which an effect's push has twice its mean "
+      "power and more (of frequencies the middle 80 %); along other axes it acts everywhere",
       {{"effect"}, {"axis"}, {"from"}, {"to"}, {"unit"}}};
   for (const Effect& effect : d.effects) {
     for (const auto& [axis, stretch] : effect.where) {
@@ -220,18 +220,16 @@ void what_else(Report& page, const Diagnosis& d) {
 void next(Report& page, const Diagnosis& d) {
   page.section("What should I measure next?");
   if (d.next_experiment) {
-    page.paragraph(fmt::format("{} separates {}; chance that it decides: {:.0f} %.",
+    page.paragraph(fmt::format("{} separates {}; chance that it decides{}: {:.0f} %.",
                                d.next_experiment->experiment, d.next_experiment->separates,
+                               d.unexplained ? ", were nothing else missing" : "",
                                100 * d.next_experiment->chance));
     page.code("cartwright device run " + d.next_experiment->experiment);
   } else if (std::any_of(d.effects.begin(), d.effects.end(),
                          [](const Effect& effect) { return !effect.equivalent.empty(); })) {
-    page.paragraph("No experiment of the menu is likely to tell those apart that are also possible.");
-  } else if (d.unexplained && !d.unexplained->axis.empty()) {
-    page.paragraph(
-        fmt::format("What has no name cannot be simulated, so no experiment can be chosen for it. Most of it "
-                    "lies along {}: record more there.",
-                    d.unexplained->axis));
+    page.paragraph("No experiment on the menu is likely to tell those from one another.");
+  } else if (d.unexplained) {
+    page.paragraph("What has no name cannot be simulated, so no experiment can be chosen for it.");
   } else {
     page.paragraph("Nothing: this data leaves no two candidates that it cannot tell apart.");
   }

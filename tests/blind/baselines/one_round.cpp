@@ -11,9 +11,8 @@
 namespace cartwright::blind {
 namespace {
 
-FitOptions quick(const Fit& base) {
-  FitOptions options;
-  options.damping_per_s = linear_damping(base.model);
+FitOptions quick(const Session& session, const Fit& base) {
+  FitOptions options = options_for(session, base.model);
   options.outlier_m = kOutlierOverNoise * robust_size(base);
   options.most_rounds = 2;
   options.most_iterations = 6;
@@ -40,7 +39,7 @@ std::vector<Promise> chosen(const std::vector<Promise>& promises, std::size_t mo
 OneRound one_round(const Session& session, const Fit& base, const std::vector<Promise>& promises,
                    std::size_t most_terms) {
   OneRound round{base, {}};
-  const FitOptions options = quick(base);
+  const FitOptions options = quick(session, base);
   for (const Promise& promise : chosen(promises, most_terms)) {
     FitOptions own = options;
     if (two_masses(promise.term)) own.most_rounds = 1, own.most_iterations = 3;
@@ -60,12 +59,12 @@ OneRound one_round(const Session& session, const Fit& base, const std::vector<Pr
 }
 
 OneRound one_round(const Session& session, const Fit& base, std::size_t most_terms) {
-  return one_round(session, base, all_promises(session, base, facts_of(session), quick(base), 1), most_terms);
+  return one_round(session, base, all_promises(session, base, facts_of(session), quick(session, base), 1),
+                   most_terms);
 }
 
 OneRound one_round(const Session& session, const Model& nominal, std::size_t most_terms) {
-  FitOptions options;
-  options.damping_per_s = linear_damping(nominal);
+  FitOptions options = options_for(session, nominal);
   const NoiseModel noise = search_noise(session, nominal, options);
   const Fit first = fit(session, nominal, noise, free_parameters(nominal, facts_of(session)), options);
   options.outlier_m = kOutlierOverNoise * robust_size(first);

@@ -1,8 +1,10 @@
-// The same cart in other units: nothing that the diagnosis says may depend on them.
+// Carts of other sizes and speeds: nothing that the diagnosis says may depend on units, and little on the
+// rate.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <variant>
 
 #include "host/diagnose/diagnosis.hpp"
 #include "host/diagnose/judge/surrogate.hpp"
@@ -30,7 +32,7 @@ Session scaled(Session session, double scale) {
   return session;
 }
 
-TEST(Units, OfLengthDoNotMatter) {
+TEST(Scales, UnitsOfLengthDoNotMatter) {
   constexpr double kScale = 1e-3;
   const Session session = test::battery(with_low_speed_friction());
   const Diagnosis in_metres = diagnose(session, test::nominal());
@@ -47,7 +49,7 @@ TEST(Units, OfLengthDoNotMatter) {
 }
 
 /// A heavy machine, read a hundred times a second: its coupling swings at a hertz.
-TEST(Units, OfTimeDoNotHideACoupling) {
+TEST(Scales, ASlowMachineHasSlowCouplings) {
   test::IndependentCart slow;
   slow.sample_rate_hz = 100;
   const Model rigid = test::nominal(1.9, 5, 0.4);
