@@ -114,7 +114,7 @@ void Plant::hold(double shaped_V, double duration_s) noexcept {
       if (terms_.two_masses) {
         hold_two_masses(span_s / steps);
       } else {
-        hold_one_mass(span_s / steps);
+        terms_.has_dahl_bristle ? hold_dahl(span_s / steps) : hold_one_mass(span_s / steps);
       }
     }
   };

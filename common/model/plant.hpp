@@ -80,6 +80,7 @@ class Plant {
   void hold(double shaped_V, double duration_s) noexcept;
   void hold_linear(double duration_s) noexcept;
   void hold_one_mass(double duration_s) noexcept;
+  void hold_dahl(double duration_s) noexcept;
   void hold_two_masses(double duration_s) noexcept;
   void hold_two_masses_linear(double duration_s) noexcept;
   Drive drive(double duration_s) const noexcept;

@@ -38,7 +38,11 @@ double rate_apart(const PlantTerms& p) {
   for (const PlantTerms::Wave& wave : p.cogging) steepest += wave.amplitude * wave.wavenumber;
   oscillates(steepest);
   if (p.stribeck_excess > 0) w = std::max(w, p.stribeck_excess * p.stribeck_inverse_speed);
-  if (p.has_bristle) oscillates(p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
+  if (p.has_bristle) {
+    // After a reversal a Dahl bristle is 2^n times as stiff.
+    const double stiffer = p.has_dahl_bristle ? std::exp2(p.dahl_exponent) : 1.0;
+    oscillates(stiffer * p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
+  }
   return w;
 }
 
@@ -81,6 +85,7 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   heating_loss = value(Term::motor_heating, Parameter::heating_gain_loss, 0);
   heating_rate = 1 / value(Term::motor_heating, Parameter::heating_time_constant, 1);
   bristle_stiffness = value(Term::presliding_friction, Parameter::presliding_stiffness, 0);
+  dahl_exponent = value(Term::presliding_friction, Parameter::presliding_dahl_exponent, 0);
   gap = value(Term::backlash, Parameter::backlash_gap, 0);
 
   const bool flexible = m.has(Term::flexible_coupling);
@@ -104,6 +109,7 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   has_heating = heating_loss != 0;
   has_bristle = bristle_stiffness > 0 && (coulomb > 0 || has_level_shape);
   two_masses = flexible || gap > 0;
+  has_dahl_bristle = has_bristle && dahl_exponent > 0 && !two_masses;
   rigid_backlash = gap > 0 && joint.rate_per_s == 0;
   varies_in_time = has_lag || has_heating || has_disturbance;
   breaks_at_rest = coulomb > 0 || has_level_shape || viscous_difference != 0;

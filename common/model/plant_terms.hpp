@@ -41,12 +41,12 @@ struct PlantTerms {
   double disturbance_start, disturbance_duration, disturbance_peak;
   double dead_zone, saturation, gain_difference, current_limit;
   double lag_rate, delay, heating_loss, heating_rate;
-  double bristle_stiffness;
+  double bristle_stiffness, dahl_exponent;
   double gap, coupling_stiffness, coupling_damping;
   double load_share, load_friction_share, load_damping_share;
 
   bool has_level_shape, has_exponential, has_disturbance, has_current_limit, has_lag, has_delay, has_heating,
-      has_bristle;
+      has_bristle, has_dahl_bristle;
   bool two_masses, rigid_backlash;
   bool varies_in_time;  ///< net force at a standstill changes while a command is held
   bool breaks_at_rest;  ///< the force, or its slope, jumps where the velocity changes sign

@@ -89,12 +89,13 @@ enum class Parameter {
   missed_rate,
   missed_speed,
   presliding_stiffness,
+  presliding_dahl_exponent,
   disturbance_start,
   disturbance_duration,
   disturbance_peak,
   amplifier_gain_difference,
 };
-inline constexpr std::size_t kParameterCount = 54;
+inline constexpr std::size_t kParameterCount = 55;
 
 /// The numbers of something that repeats along the way.
 struct PeriodicTerm {

@@ -197,5 +197,57 @@ TEST(PreslidingFriction, BreaksAwayAtTheCoulombLevelAndThenCoastsLikeIt) {
   EXPECT_NEAR(farthest, 0.3 * 0.3 / (2 * level) + 0.5 * level / stiffness, 1e-7);
 }
 
+Model dahl(double level_m_per_s2, double stiffness_per_s2) {
+  return Model(1.0)
+      .set(P::coulomb_level, level_m_per_s2)
+      .set(P::presliding_stiffness, stiffness_per_s2)
+      .set(P::presliding_dahl_exponent, 1);
+}
+
+TEST(DahlFriction, GivesMoreAndMoreAndIsTwiceAsStiffOnTheWayBack) {
+  const double level = 0.5, stiffness = 4e4;
+  Plant plant = plant_at(dahl(level, stiffness).set(P::viscous_coefficient, 2000), 0.1);
+  // So much damping that it never swings: pushed from rest, F = level (1 - exp(-k x/level)).
+  double there = 0;
+  for (const double push : {0.1, 0.2, 0.3}) {
+    run(plant, push, 1.0);
+    there = 0.1 - level / stiffness * std::log(1 - push / level);
+    EXPECT_NEAR(plant.state().position_m, there, 1e-8);
+  }
+  run(plant, 0, 1.0);
+  EXPECT_NEAR(plant.state().position_m, there - level / stiffness * std::log(1 + 0.3 / level), 1e-8);
+}
+
+TEST(DahlFriction, SlidesLikeCoulombFriction) {
+  const double level = 0.5, stiffness = 4e4;
+  Plant plant = plant_at(dahl(level, stiffness).set(P::viscous_coefficient, 50), 0);
+  run(plant, 0.55, 2.0);
+  EXPECT_NEAR(plant.state().velocity_m_per_s, (0.55 - level) / 50, 1e-6);
+
+  Plant coasting = plant_at(dahl(level, stiffness), 0, 0.3);
+  double farthest = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    coasting.advance(0, 1e-3);
+    farthest = std::max(farthest, coasting.state().position_m);
+  }
+  // On the way to its level it takes level^2/k less than that all along.
+  EXPECT_NEAR(farthest, 0.3 * 0.3 / (2 * level) + level / stiffness, 1e-7);
+}
+
+TEST(DahlFriction, WithASmallExponentIsElasticUpToBreakaway) {
+  const double level = 0.5, stiffness = 4e4;
+  const Model sharp = Model(1.0)
+                          .set(P::viscous_coefficient, 50)
+                          .set(P::coulomb_level, level)
+                          .set(P::presliding_stiffness, stiffness);
+  Plant elastic = plant_at(sharp, 0),
+        nearly = plant_at(Model(sharp).set(P::presliding_dahl_exponent, 1e-3), 0);
+  for (const double push : {0.4, -0.3, 0.2}) {
+    run(elastic, push, 0.5);
+    run(nearly, push, 0.5);
+    EXPECT_NEAR(nearly.state().position_m, elastic.state().position_m, 0.01 * level / stiffness);
+  }
+}
+
 }  // namespace
 }  // namespace cartwright

@@ -170,6 +170,7 @@ std::vector<FreeParameter> free_parameters(const Model& model, const SessionFact
     if (entry.term && !model.has(*entry.term)) continue;
     // Speed threshold and rate of lost counts are read off the bursts, not fitted.
     if (entry.term == T::encoder_missed_counts) continue;
+    if (entry.id == P::presliding_dahl_exponent) continue;  // a law, 0 or 1
     if (of_absent_wave(entry.id, model)) continue;
     free.push_back(free_parameter(entry.id, facts, model));
   }
@@ -250,8 +251,11 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   }
   add(T::motor_heating, {P::heating_gain_loss, P::heating_time_constant}, heatings);
   if (coulomb) {
-    for (const double stiffness : at_both_rates({3e3, 1e4, 3e4, 1e5}, facts, 2))
-      preslidings.push_back({{P::presliding_stiffness, stiffness}});
+    for (const double dahl_exponent : {0.0, 1.0}) {
+      for (const double stiffness : at_both_rates({3e3, 1e4, 3e4, 1e5}, facts, 2))
+        preslidings.push_back(
+            {{P::presliding_stiffness, stiffness}, {P::presliding_dahl_exponent, dahl_exponent}});
+    }
     add(T::presliding_friction, {P::presliding_stiffness}, preslidings);
   }
   const double count = facts.count_m > 0 ? facts.count_m : 1e-4 * travel;

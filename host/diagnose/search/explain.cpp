@@ -301,9 +301,10 @@ class Explainer {
       model.disturbance_recording = rival.fit.model.disturbance_recording;
     std::vector<FreeParameter> free = free_beside(from.fit, old);
     for (const FreeParameter& p : rival.fit.free) {
-      if (info(p.id).term != term) continue;
-      free.push_back(p);
-      model.set(p.id, rival.fit.model[p.id]);
+      if (info(p.id).term == term) free.push_back(p);
+    }
+    for (const ParameterInfo& number : parameters()) {
+      if (number.term == term) model.set(number.id, rival.fit.model[number.id]);
     }
     const Session data = without_jumps(session_, from.jumps);
     swapped.fit = fit(data, model, from.fit.noise, free, with_kinks(model, options_of_sketch()));

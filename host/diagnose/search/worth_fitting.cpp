@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "host/diagnose/search/promises.hpp"
 
@@ -23,8 +24,13 @@ constexpr double kMostGainOverPromiseBesideGap = 1;
 
 bool many_minima(Term term) {
   return two_masses(term) || term == Term::cogging || term == Term::encoder_eccentricity ||
-         term == Term::stribeck_friction || term == Term::position_dependent_friction ||
-         term == Term::presliding_friction;
+         term == Term::stribeck_friction || term == Term::position_dependent_friction;
+}
+
+/// A term and which of its laws: before it breaks away friction gives in one of two ways.
+using Law = std::pair<Term, double>;
+Law law_of(const Promise& promise) {
+  return {promise.term, promise.start[Parameter::presliding_dahl_exponent]};
 }
 
 /// A coupling with play shows that play more than that it gives; where it is told the other way round, a
@@ -51,7 +57,7 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
       least_gain / (beside_gap ? kMostGainOverPromiseBesideGap : kMostGainOverPromise);
   const bool no_gap = gives_rather_than_plays(promises);
   std::vector<Promise> chosen;
-  std::map<Term, std::size_t> starts;
+  std::map<Law, std::size_t> starts;
   for (const Promise& promise : promises) {
     const double bar =
         std::max({kLeastPromise, least_promise, least_share * promises.front().log_likelihood_gain});
@@ -62,11 +68,12 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
       continue;
     }
     if (is_gap(promise) && no_gap) continue;
-    if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
+    const Law law = law_of(promise);
+    if (!starts.contains(law) && starts.size() >= most_terms) continue;
     // A second start is worth its time only where it promises nearly as much.
-    if (starts[promise.term] >= most_starts) continue;
-    if (starts[promise.term] > 0 && !many_minima(promise.term)) continue;
-    ++starts[promise.term];
+    if (starts[law] >= most_starts) continue;
+    if (starts[law] > 0 && !many_minima(promise.term)) continue;
+    ++starts[law];
     chosen.push_back(promise);
   }
   return chosen;

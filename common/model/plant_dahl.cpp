@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include "common/model/hermite_root.hpp"
+#include "common/model/plant.hpp"
+#include "common/model/plant_step.hpp"
+
+namespace cartwright {
+namespace {
+
+/// Less than this share of the level lacking, the bristle slides; before that a step takes no more than this
+/// part of the way F/k over which it loads.
+constexpr double kSliding = 1e-3, kWayPerStep = 0.5;
+
+/// The share r of the friction level that a Dahl bristle carries after a way x one way, from a share r0:
+///
+///     dr/dx = (k / F) (1 - r)^n,   `way` = k x / F
+///
+/// k stiffness, F level. Exact for any way, so that sliding needs no small steps.
+double carried(double r0, double way, double exponent) noexcept {
+  const double left = std::max(1 - r0, 0.0);
+  if (exponent == 1) return 1 - left * std::exp(-way);
+  const double power = 1 - exponent;
+  const double rest = std::pow(left, power) - power * way;
+  return rest > 0 ? 1 - std::pow(rest, 1 / power) : 1.0;
+}
+
+}  // namespace
+
+/// One mass through one inner step where friction is a Dahl bristle: it neither sticks nor breaks away, it
+/// carries more and more of its level the farther the cart moves one way. Runge-Kutta between reversals.
+void Plant::hold_dahl(double duration_s) noexcept {
+  const PlantTerms& p = terms_;
+  double left = duration_s;
+  for (int event = 0; left > 0; ++event) {
+    const double y = state_.position_m, v = state_.velocity_m_per_s, t = state_.time_s;
+    const double level_before = p.level(y, v);
+    const double share = level_before > 0 ? p.bristle_stiffness * state_.bristle_m / level_before : 0;
+    const auto friction = [&](double y_now, double v_now) {
+      const double level = p.level(y_now, v_now);
+      if (level <= 0) return 0.0;
+      const double moved = y_now - y, side = moved != 0 ? sign_of(moved) : 1.0;
+      const double way = std::abs(moved) * p.bristle_stiffness / level;
+      return level * side * carried(std::clamp(side * share, -1.0, 1.0), way, p.dahl_exponent);
+    };
+    const auto rate = [&](double y_now, double v_now, double t_now, double drive_now) {
+      return p.driven(drive_now, v_now, 1.0) + p.pushes(y_now, t_now) + extra_push_ - friction(y_now, v_now);
+    };
+    struct Point {
+      double y, v, start_rate;
+      Drive drive;
+    };
+    const auto step = [&](double h) {
+      const Drive d = drive(h);
+      const double k1 = rate(y, v, t, d.start);
+      const double v2 = v + 0.5 * h * k1;
+      const double k2 = rate(y + 0.5 * h * v, v2, t + 0.5 * h, d.middle);
+      const double v3 = v + 0.5 * h * k2;
+      const double k3 = rate(y + 0.5 * h * v2, v3, t + 0.5 * h, d.middle);
+      const double v4 = v + h * k3;
+      const double k4 = rate(y + h * v3, v4, t + h, d.end);
+      return Point{y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), k1, d};
+    };
+    double h = left;
+    if (v != 0 && 1 - sign_of(v) * share > kSliding) {
+      const double way_m = level_before / p.bristle_stiffness;
+      h = std::min(left, std::max(kWayPerStep * way_m / std::abs(v), duration_s / kEventsPerStep));
+    }
+    Point next = step(h);
+    const bool reverses = v * next.v < 0 && event < kEventsPerStep;
+    if (reverses) {
+      const double end_rate = rate(next.y, next.v, t + h, next.drive.end);
+      h = std::max(h * hermite_root(v, next.start_rate * h, next.v, end_rate * h),
+                   std::min(h, kLeastAdvance_s));
+      next = step(h);
+    }
+    state_.position_m = next.y;
+    state_.velocity_m_per_s = reverses ? 0 : next.v;
+    state_.bristle_m = friction(next.y, next.v) / p.bristle_stiffness;
+    state_.armature_V = next.drive.armature_V;
+    state_.time_s += h;
+    left -= h;
+  }
+  state_.motor_position_m = state_.position_m;
+  state_.motor_velocity_m_per_s = state_.velocity_m_per_s;
+}
+
+}  // namespace cartwright
