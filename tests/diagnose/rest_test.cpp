@@ -12,18 +12,18 @@
 namespace cartwright {
 namespace {
 
-constexpr double kCount_m = 1e-4;
+constexpr double kRestCount_m = 1e-4;
 constexpr double kAmplitude_m = 0.05, kRadians_per_s = 6.3;
 /// 5 sqrt(2 q / a), where v is the greatest speed of a sine and L its travel.
 const double kReach_s =
-    5 * std::sqrt(2 * kCount_m * 2 * 2 * kAmplitude_m / std::pow(kRadians_per_s * kAmplitude_m, 2));
+    5 * std::sqrt(2 * kRestCount_m * 2 * 2 * kAmplitude_m / std::pow(kRadians_per_s * kAmplitude_m, 2));
 
 /// Two seconds of readings, in counts.
 Recording readings(const std::function<double(double t_s)>& counts) {
   Recording r;
   for (int k = 0; k < 2000; ++k) {
     r.t_s.push_back(k * Rig().period_s());
-    r.y_m.push_back(kCount_m * std::round(counts(r.t_s.back())));
+    r.y_m.push_back(kRestCount_m * std::round(counts(r.t_s.back())));
   }
   return r;
 }
@@ -31,9 +31,9 @@ Recording readings(const std::function<double(double t_s)>& counts) {
 /// Beside a sine, which says how fast the cart is.
 Session beside_a_sine(const Recording& r) {
   Session session;
-  session.rig.encoder_resolution_m = kCount_m;
+  session.rig.encoder_resolution_m = kRestCount_m;
   session.recordings = {
-      r, readings([](double t) { return kAmplitude_m / kCount_m * std::sin(kRadians_per_s * t); })};
+      r, readings([](double t) { return kAmplitude_m / kRestCount_m * std::sin(kRadians_per_s * t); })};
   return session;
 }
 
