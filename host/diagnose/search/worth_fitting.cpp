@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "host/diagnose/search/promises.hpp"
@@ -58,6 +59,7 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
   const bool no_gap = gives_rather_than_plays(promises);
   std::vector<Promise> chosen;
   std::map<Law, std::size_t> starts;
+  std::set<Term> terms;
   for (const Promise& promise : promises) {
     const double bar =
         std::max({kLeastPromise, least_promise, least_share * promises.front().log_likelihood_gain});
@@ -69,11 +71,11 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
     }
     if (is_gap(promise) && no_gap) continue;
     const Law law = law_of(promise);
-    if (!starts.contains(law) && starts.size() >= most_terms) continue;
+    if (!terms.contains(promise.term) && terms.size() >= most_terms) continue;
     // A second start is worth its time only where it promises nearly as much.
     if (starts[law] >= most_starts) continue;
     if (starts[law] > 0 && !many_minima(promise.term)) continue;
-    ++starts[law];
+    ++starts[law], terms.insert(promise.term);
     chosen.push_back(promise);
   }
   return chosen;
