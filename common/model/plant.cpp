@@ -113,8 +113,10 @@ void Plant::hold(double shaped_V, double duration_s) noexcept {
     for (int i = 0; i < steps; ++i) {
       if (terms_.two_masses) {
         hold_two_masses(span_s / steps);
+      } else if (terms_.has_dahl_bristle) {
+        hold_dahl(span_s / steps);
       } else {
-        terms_.has_dahl_bristle ? hold_dahl(span_s / steps) : hold_one_mass(span_s / steps);
+        hold_one_mass(span_s / steps);
       }
     }
   };

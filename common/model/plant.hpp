@@ -84,6 +84,13 @@ class Plant {
   void hold_two_masses(double duration_s) noexcept;
   void hold_two_masses_linear(double duration_s) noexcept;
   Drive drive(double duration_s) const noexcept;
+  /// One mass after a step, and its acceleration at the start of it.
+  struct OneMass {
+    double position_m, velocity_m_per_s, start_rate;
+    Drive drive;
+  };
+  template <typename Rate>
+  OneMass one_mass_after(double duration_s, const Rate& rate) const noexcept;
   template <typename Moves>
   double release_s(double duration_s, const Moves& moves) const noexcept;
 

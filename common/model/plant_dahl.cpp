@@ -46,37 +46,22 @@ void Plant::hold_dahl(double duration_s) noexcept {
     const auto rate = [&](double y_now, double v_now, double t_now, double drive_now) {
       return p.driven(drive_now, v_now, 1.0) + p.pushes(y_now, t_now) + extra_push_ - friction(y_now, v_now);
     };
-    struct Point {
-      double y, v, start_rate;
-      Drive drive;
-    };
-    const auto step = [&](double h) {
-      const Drive d = drive(h);
-      const double k1 = rate(y, v, t, d.start);
-      const double v2 = v + 0.5 * h * k1;
-      const double k2 = rate(y + 0.5 * h * v, v2, t + 0.5 * h, d.middle);
-      const double v3 = v + 0.5 * h * k2;
-      const double k3 = rate(y + 0.5 * h * v2, v3, t + 0.5 * h, d.middle);
-      const double v4 = v + h * k3;
-      const double k4 = rate(y + h * v3, v4, t + h, d.end);
-      return Point{y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), k1, d};
-    };
     double h = left;
     if (v != 0 && 1 - sign_of(v) * share > kSliding) {
       const double way_m = level_before / p.bristle_stiffness;
       h = std::min(left, std::max(kWayPerStep * way_m / std::abs(v), duration_s / kEventsPerStep));
     }
-    Point next = step(h);
-    const bool reverses = v * next.v < 0 && event < kEventsPerStep;
+    OneMass next = one_mass_after(h, rate);
+    const bool reverses = v * next.velocity_m_per_s < 0 && event < kEventsPerStep;
     if (reverses) {
-      const double end_rate = rate(next.y, next.v, t + h, next.drive.end);
-      h = std::max(h * hermite_root(v, next.start_rate * h, next.v, end_rate * h),
+      const double end_rate = rate(next.position_m, next.velocity_m_per_s, t + h, next.drive.end);
+      h = std::max(h * hermite_root(v, next.start_rate * h, next.velocity_m_per_s, end_rate * h),
                    std::min(h, kLeastAdvance_s));
-      next = step(h);
+      next = one_mass_after(h, rate);
     }
-    state_.position_m = next.y;
-    state_.velocity_m_per_s = reverses ? 0 : next.v;
-    state_.bristle_m = friction(next.y, next.v) / p.bristle_stiffness;
+    state_.position_m = next.position_m;
+    state_.velocity_m_per_s = reverses ? 0 : next.velocity_m_per_s;
+    state_.bristle_m = friction(next.position_m, next.velocity_m_per_s) / p.bristle_stiffness;
     state_.armature_V = next.drive.armature_V;
     state_.time_s += h;
     left -= h;

@@ -46,57 +46,43 @@ void Plant::hold_one_mass(double duration_s) noexcept {
                                       : (sign == 0 ? 0 : sign * p.level(y_now, v_now));
       return unresisted(y_now, v_now, t_now, drive_now) - friction;
     };
-    struct Point {
-      double y, v, start_rate;
-      Drive drive;
-    };
-    const auto step = [&](double h) {
-      const Drive d = drive(h);
-      const double k1 = rate(y, v, t, d.start);
-      const double v2 = v + 0.5 * h * k1;
-      const double k2 = rate(y + 0.5 * h * v, v2, t + 0.5 * h, d.middle);
-      const double v3 = v + 0.5 * h * k2;
-      const double k3 = rate(y + 0.5 * h * v2, v3, t + 0.5 * h, d.middle);
-      const double v4 = v + h * k3;
-      const double k4 = rate(y + h * v3, v4, t + h, d.end);
-      return Point{y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), k1, d};
-    };
     double h = left;
-    Point next = step(h);
+    OneMass next = one_mass_after(h, rate);
     const bool may_stop = event < kEventsPerStep;
     if (p.has_current_limit && may_stop) {
-      const double corner =
-          sign_change(p.over_current(next.drive.start, v), p.over_current(next.drive.end, next.v));
+      const double corner = sign_change(p.over_current(next.drive.start, v),
+                                        p.over_current(next.drive.end, next.velocity_m_per_s));
       if (corner < 1) {
         h = std::max(corner * left, std::min(left, kLeastAdvance_s));
-        next = step(h);
+        next = one_mass_after(h, rate);
       }
     }
     bool stops = false;
     if (elastic) {
       // Breaks away where the bristle carries the level.
-      const double pull = bristle + (next.y - y);
+      const double pull = bristle + (next.position_m - y);
       const double side = sign_of(pull);
-      const double over = side * pull - p.level(next.y, next.v) / p.bristle_stiffness;
-      if (over > 0 && side * next.v > 0 && may_stop) {
+      const double over = side * pull - p.level(next.position_m, next.velocity_m_per_s) / p.bristle_stiffness;
+      if (over > 0 && side * next.velocity_m_per_s > 0 && may_stop) {
         const double before = std::min(side * bristle - p.level(y, v) / p.bristle_stiffness, 0.0);
-        h = std::max(h * hermite_root(before, side * v * h, over, side * next.v * h),
+        h = std::max(h * hermite_root(before, side * v * h, over, side * next.velocity_m_per_s * h),
                      std::min(h, kLeastAdvance_s));
-        next = step(h);
+        next = one_mass_after(h, rate);
       }
-    } else if (p.breaks_at_rest && next.v * sign < 0) {
+    } else if (p.breaks_at_rest && next.velocity_m_per_s * sign < 0) {
       stops = true;
       if (may_stop) {
-        const double end_rate = rate(next.y, next.v, t + h, next.drive.end);
-        h *= hermite_root(v, next.start_rate * h, next.v, end_rate * h);
-        next = step(h);
+        const double end_rate = rate(next.position_m, next.velocity_m_per_s, t + h, next.drive.end);
+        h *= hermite_root(v, next.start_rate * h, next.velocity_m_per_s, end_rate * h);
+        next = one_mass_after(h, rate);
       }
     }
-    state_.position_m = next.y;
-    state_.velocity_m_per_s = stops ? 0 : next.v;
+    state_.position_m = next.position_m;
+    state_.velocity_m_per_s = stops ? 0 : next.velocity_m_per_s;
     if (p.has_bristle) {
-      state_.bristle_m = elastic ? bristle + (next.y - y)
-                                 : sign * p.level(next.y, state_.velocity_m_per_s) / p.bristle_stiffness;
+      state_.bristle_m = elastic
+                             ? bristle + (next.position_m - y)
+                             : sign * p.level(next.position_m, state_.velocity_m_per_s) / p.bristle_stiffness;
     }
     state_.armature_V = next.drive.armature_V;
     state_.time_s += h;

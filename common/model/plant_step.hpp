@@ -44,6 +44,21 @@ BristleMode bristle_mode(double deflection_m, double velocity, double most_m, co
   return slides ? BristleMode{side * most_m, false} : BristleMode{deflection_m, true};
 }
 
+/// Runge-Kutta for one mass that is accelerated by `rate(position, velocity, time, drive)`.
+template <typename Rate>
+Plant::OneMass Plant::one_mass_after(double h, const Rate& rate) const noexcept {
+  const double y = state_.position_m, v = state_.velocity_m_per_s, t = state_.time_s;
+  const Drive d = drive(h);
+  const double k1 = rate(y, v, t, d.start);
+  const double v2 = v + 0.5 * h * k1;
+  const double k2 = rate(y + 0.5 * h * v, v2, t + 0.5 * h, d.middle);
+  const double v3 = v + 0.5 * h * k2;
+  const double k3 = rate(y + 0.5 * h * v2, v3, t + 0.5 * h, d.middle);
+  const double v4 = v + h * k3;
+  const double k4 = rate(y + h * v3, v4, t + h, d.end);
+  return {y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), k1, d};
+}
+
 /// How long a mass at rest stays there, at most `duration_s`: just past the moment at which `moves(time,
 /// drive)` turns true.
 template <typename Moves>

@@ -47,8 +47,8 @@ void print_summary(const Diagnosis& d, const std::string& out) {
   }
   for (const std::string& remark : d.remarks) fmt::print("  {}\n", remark);
   if (d.next_experiment)
-    fmt::print("  next: cartwright device run {}\n        separates {}, chance that it decides {:.0f} %\n",
-               d.next_experiment->experiment, d.next_experiment->separates, 100 * d.next_experiment->chance);
+    fmt::print("  next: cartwright device run {}\n        {}\n", d.next_experiment->experiment,
+               statement_of_next(*d.next_experiment, d.unexplained.has_value()));
   fmt::print("  written: {0}/diagnosis.json, {0}/model.toml, {0}/report.html{1}\n", out,
              d.unexplained ? fmt::format(", {}/missing_force.csv", out) : "");
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -22,8 +21,7 @@ Outcome run(const Options& options) {
   auto session = read_session(options.session);
   if (!session) return tl::unexpected(session.error());
   tell_gaps(*session);
-  const auto foreign = std::count_if(session->recordings.begin(), session->recordings.end(),
-                                     [](const Recording& r) { return !r.has_controller(); });
+  const std::size_t foreign = session->without_law();
   if (foreign > 0)
     fmt::print(
         stderr,

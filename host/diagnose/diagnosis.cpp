@@ -59,9 +59,7 @@ double excess_left(const Errors& errors, double floor_m) {
 class Diagnostician {
  public:
   Diagnostician(const Session& session, const Model& nominal, const DiagnoseOptions& options)
-      : session_(session), nominal_(nominal), options_(options) {
-    fit_options_ = options_for(session, nominal);
-  }
+      : session_(session), nominal_(nominal), options_(options) {}
 
   Diagnosis run() {
     std::vector<std::size_t> held = choose_held_out(session_);
@@ -189,7 +187,7 @@ class Diagnostician {
     if (!held.empty())
       result_.held_out.with_effects = window_rmse_m(result_.model, only(session_, held), options_.threads);
     const Fit as_it_is = fit(used, result_.model, result_.search.best.fit.noise, {}, fit_options_);
-    result_.effects.front().where = where_it_acts(Term::cogging, used, as_it_is, with_threads());
+    result_.effects.front().where = Acts(used, as_it_is, with_threads()).where(Term::cogging);
     result_.after = located(used, as_it_is);
     describe_left_over(drive->share_left(), "");
     result_.unexplained->closest.reset();
@@ -279,9 +277,10 @@ class Diagnostician {
     double gains = 0;
     for (const Contest& contest : found.contests) gains += contest.gain;
     const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
+    const Acts acts(repaired, found.best.fit, with_threads());
     for (const Contest& contest : found.contests) {
       Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, {}, ""};
-      effect.where = where_it_acts(contest.chosen, repaired, found.best.fit, with_threads());
+      effect.where = acts.where(contest.chosen);
       if (contest.chosen == Term::encoder_missed_counts) {
         effect.parameters = lost_counts(repaired, found.best.jumps, result_.model);
       } else {
@@ -369,7 +368,7 @@ class Diagnostician {
   const Session& session_;
   const Model& nominal_;
   const DiagnoseOptions& options_;
-  FitOptions fit_options_;
+  FitOptions fit_options_ = options_for(session_, nominal_);
   Diagnosis result_;
   WindowErrors windows_used_, windows_unseen_;
   double held_floor_m_ = 0;

@@ -6,7 +6,6 @@
 
 #include "common/model/encoder.hpp"
 #include "common/model/plant.hpp"
-#include "host/session/motion_range.hpp"
 #include "host/session/segments.hpp"
 
 namespace cartwright {
@@ -35,7 +34,7 @@ class Replay {
     plant_options_.linear_by_steps = options.linear_by_steps;
     plant_options_.disturbance_active = model.disturbance_recording == recording.file;
     plant_options_.heating_start_s = options.started_s.value_or(recording.t_s.front());
-    const MotionRange range = motion_range_of({&recording, 1});
+    const MotionRange range = options.range ? *options.range : motion_range_of({&recording, 1});
     if (range.travel_m() > 0) trial_position_m_ = kTrialPosition * range.travel_m();
     if (range.most_speed_m_per_s > 0) trial_velocity_m_per_s_ = kTrialVelocity * range.most_speed_m_per_s;
     slow_m_per_s_ = kSlow * range.most_speed_m_per_s;

@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "common/model/model.hpp"
+#include "host/session/motion_range.hpp"
 #include "host/session/session.hpp"
 
 namespace cartwright {
 
 struct ReplayOptions {
-  double window_s = 0.5;            ///< length of the windows, by the recorded times
-  double step_s = 1.5e-3;           ///< greatest inner step of the plant; stiff models choose a finer one
-  std::size_t open_loop_rows = 20;  ///< rows that give the start state of the open loop
-  int iterations = 12;              ///< most Gauss-Newton steps for one start state
-  bool linear_by_steps = false;     ///< of two masses, as PlantOptions::linear_by_steps: faster
-  std::optional<double> started_s;  ///< when the recording began, where only a part of it is replayed
+  double window_s = 0.5;             ///< length of the windows, by the recorded times
+  double step_s = 1.5e-3;            ///< greatest inner step of the plant; stiff models choose a finer one
+  std::size_t open_loop_rows = 20;   ///< rows that give the start state of the open loop
+  int iterations = 12;               ///< most Gauss-Newton steps for one start state
+  bool linear_by_steps = false;      ///< of two masses, as PlantOptions::linear_by_steps: faster
+  std::optional<double> started_s;   ///< when the recording began, where only a part of it is replayed
+  std::optional<MotionRange> range;  ///< of the recording, where that is replayed often
 };
 
 /// How the model moved during a replay.

@@ -40,6 +40,7 @@ std::vector<SimulatedPiece> pieces_of(const std::vector<Recording>& recordings,
     if (recordings[i].size() < kLeastRows) continue;
     ReplayOptions replay;
     replay.started_s = started_s[i];
+    replay.range = motion_range_of({&recordings[i], 1});
     out.push_back({&recordings[i], replay});
   }
   return out;

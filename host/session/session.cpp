@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -161,6 +162,11 @@ Result<void> write_session(const Session& session, const fs::path& directory) {
   }
   files.push_back({"session.toml", std::move(text)});
   return write_files(directory, files);
+}
+
+std::size_t Session::without_law() const {
+  return static_cast<std::size_t>(std::count_if(recordings.begin(), recordings.end(),
+                                                [](const Recording& r) { return !r.has_controller(); }));
 }
 
 }  // namespace cartwright

@@ -32,6 +32,8 @@ struct Recording {
 struct Session {
   Rig rig;
   std::vector<Recording> recordings;
+  /// How many recordings come without a control law.
+  std::size_t without_law() const;
 };
 
 /// Moves the columns of a table into a recording and checks them: required ones there, finite, time

@@ -16,8 +16,8 @@ using P = Parameter;
 Where acts(Term effect, const Model& model, const test::IndependentCart& cart) {
   const Session session = test::battery(cart);
   const FitOptions options = options_for(session, model);
-  return where_it_acts(effect, session,
-                       fit(session, model, search_noise(session, model, options), {}, options), options);
+  const Fit fitted = fit(session, model, search_noise(session, model, options), {}, options);
+  return Acts(session, fitted, options).where(effect);
 }
 
 Model with(std::initializer_list<std::pair<P, double>> numbers) {

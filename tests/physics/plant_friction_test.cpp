@@ -141,12 +141,25 @@ TEST(PositionDependentFriction, TakesTheWorkOfItsAreaFromACartThatCrosses) {
   EXPECT_NEAR(0.5 * (v0 * v0 - v1 * v1), peak * width * std::sqrt(2 * std::numbers::pi), 1e-8);
 }
 
+/// A unit mass on a bristle.
+Model bristle(double level_m_per_s2, double stiffness_per_s2) {
+  return Model(1.0).set(P::coulomb_level, level_m_per_s2).set(P::presliding_stiffness, stiffness_per_s2);
+}
+
+/// How far it comes in a second when it is let go at a speed.
+double coasted_m(const Model& model, double velocity_m_per_s) {
+  Plant coasting = plant_at(model, 0, velocity_m_per_s);
+  double farthest = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    coasting.advance(0, 1e-3);
+    farthest = std::max(farthest, coasting.state().position_m);
+  }
+  return farthest;
+}
+
 TEST(PreslidingFriction, DeflectsLikeASpringAndReturns) {
   const double stiffness = 4e4;
-  const Model model = Model(1.0)
-                          .set(P::viscous_coefficient, 50)
-                          .set(P::coulomb_level, 0.5)
-                          .set(P::presliding_stiffness, stiffness);
+  const Model model = bristle(0.5, stiffness).set(P::viscous_coefficient, 50);
   Plant plant = plant_at(model, 0.1);
   for (const double push : {0.2, 0.3, 0.1, -0.1, -0.2}) {
     run(plant, push, 1.0);
@@ -159,7 +172,7 @@ TEST(PreslidingFriction, DeflectsLikeASpringAndReturns) {
 TEST(PreslidingFriction, StoresAndGivesBackEnergyBelowBreakaway) {
   // Without damping a nudged cart swings for ever at sqrt(k) about its start.
   const double stiffness = 4e4, nudge = 1e-3;
-  const Model model = Model(1.0).set(P::coulomb_level, 0.5).set(P::presliding_stiffness, stiffness);
+  const Model model = bristle(0.5, stiffness);
   Plant plant = plant_at(model, 0, nudge);
   double greatest = 0;
   for (int tick = 0; tick < 5000; ++tick) {
@@ -175,10 +188,7 @@ TEST(PreslidingFriction, StoresAndGivesBackEnergyBelowBreakaway) {
 
 TEST(PreslidingFriction, BreaksAwayAtTheCoulombLevelAndThenCoastsLikeIt) {
   const double level = 0.5, stiffness = 4e4;
-  const Model model = Model(1.0)
-                          .set(P::viscous_coefficient, 50)
-                          .set(P::coulomb_level, level)
-                          .set(P::presliding_stiffness, stiffness);
+  const Model model = bristle(level, stiffness).set(P::viscous_coefficient, 50);
   Plant plant = plant_at(model, 0);
   double u = 0;
   while (u < 0.49) plant.advance(u += 1e-4, 1e-3);
@@ -186,22 +196,13 @@ TEST(PreslidingFriction, BreaksAwayAtTheCoulombLevelAndThenCoastsLikeIt) {
   run(plant, 0.55, 2.0);
   EXPECT_NEAR(plant.state().velocity_m_per_s, (0.55 - level) / 50, 1e-6);
 
-  Plant coasting =
-      plant_at(Model(1.0).set(P::coulomb_level, level).set(P::presliding_stiffness, stiffness), 0, 0.3);
-  double farthest = 0;
-  for (int tick = 0; tick < 1000; ++tick) {
-    coasting.advance(0, 1e-3);
-    farthest = std::max(farthest, coasting.state().position_m);
-  }
+  const double farthest = coasted_m(bristle(level, stiffness), 0.3);
   // Kinetic energy goes into sliding, and into the bristle first: level^2/(2 k) of it.
   EXPECT_NEAR(farthest, 0.3 * 0.3 / (2 * level) + 0.5 * level / stiffness, 1e-7);
 }
 
 Model dahl(double level_m_per_s2, double stiffness_per_s2) {
-  return Model(1.0)
-      .set(P::coulomb_level, level_m_per_s2)
-      .set(P::presliding_stiffness, stiffness_per_s2)
-      .set(P::presliding_dahl_exponent, 1);
+  return bristle(level_m_per_s2, stiffness_per_s2).set(P::presliding_dahl_exponent, 1);
 }
 
 TEST(DahlFriction, GivesMoreAndMoreAndIsTwiceAsStiffOnTheWayBack) {
@@ -224,22 +225,14 @@ TEST(DahlFriction, SlidesLikeCoulombFriction) {
   run(plant, 0.55, 2.0);
   EXPECT_NEAR(plant.state().velocity_m_per_s, (0.55 - level) / 50, 1e-6);
 
-  Plant coasting = plant_at(dahl(level, stiffness), 0, 0.3);
-  double farthest = 0;
-  for (int tick = 0; tick < 1000; ++tick) {
-    coasting.advance(0, 1e-3);
-    farthest = std::max(farthest, coasting.state().position_m);
-  }
+  const double farthest = coasted_m(dahl(level, stiffness), 0.3);
   // On the way to its level it takes level^2/k less than that all along.
   EXPECT_NEAR(farthest, 0.3 * 0.3 / (2 * level) + level / stiffness, 1e-7);
 }
 
 TEST(DahlFriction, WithASmallExponentIsElasticUpToBreakaway) {
   const double level = 0.5, stiffness = 4e4;
-  const Model sharp = Model(1.0)
-                          .set(P::viscous_coefficient, 50)
-                          .set(P::coulomb_level, level)
-                          .set(P::presliding_stiffness, stiffness);
+  const Model sharp = bristle(level, stiffness).set(P::viscous_coefficient, 50);
   Plant elastic = plant_at(sharp, 0),
         nearly = plant_at(Model(sharp).set(P::presliding_dahl_exponent, 1e-3), 0);
   for (const double push : {0.4, -0.3, 0.2}) {

@@ -14,7 +14,7 @@ using T = Term;
 /// Starts at a kilohertz of something that goes with the rate to a power, and the same in ticks of the rig.
 std::vector<double> at_both_rates(std::vector<double> starts, const SessionFacts& facts, double power) {
   constexpr double kOtherRate = 1.5;
-  const double rate = facts.sample_rate_hz / 1000;
+  const double rate = facts.rate();
   if (rate < kOtherRate && rate > 1 / kOtherRate) return starts;
   for (std::size_t i = 0, usual = starts.size(); i < usual; ++i)
     starts.push_back(starts[i] * std::pow(rate, power));

@@ -18,8 +18,9 @@ struct SessionFacts : MotionRange {
   double longest_recording_s = 0;
   /// What is fast is looked for where it lies on carts that are read at a kilohertz, and as many ticks of
   /// this rig away: a machine that is read more seldom may be slower, one read more often faster.
-  double slower() const { return std::min(1.0, sample_rate_hz / 1000); }
-  double faster() const { return std::max(1.0, sample_rate_hz / 1000); }
+  double rate() const { return sample_rate_hz / 1000; }
+  double slower() const { return std::min(1.0, rate()); }
+  double faster() const { return std::max(1.0, rate()); }
 };
 SessionFacts facts_of(const Session& session);
 

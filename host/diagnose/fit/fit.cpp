@@ -9,7 +9,6 @@
 
 #include "host/diagnose/fit/block_covariance.hpp"
 #include "host/diagnose/observe/rest.hpp"
-#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {
@@ -275,10 +274,7 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   observer.step_s = options.step_s;
   const ObserverGains gains = observer_gains(noise, session.rig.period_s(), options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig);
-  std::vector<Observation> observations(session.recordings.size());
-  parallel_for(observations.size(), options.threads, [&](std::size_t n) {
-    observations[n] = observe(model, gains, session.rig, session.recordings[n], observer);
-  });
+  const std::vector<Observation> observations = observe(model, gains, session, observer, options.threads);
   const std::vector<std::vector<bool>> rests = rows_at_rest(session, options.rest_s);
   for (std::size_t n = 0; n < observations.size(); ++n) {
     const Observation& seen = observations[n];

@@ -43,8 +43,7 @@ std::vector<std::string> remarks(const Session& session, const Model& nominal,
   if (std::none_of(list.begin(), list.end(), [](const Recording& r) { return !r.repeat_of.empty(); })) {
     out.push_back("No repeats: the noise floor rests on the fitted noise alone.");
   }
-  const auto foreign =
-      std::count_if(list.begin(), list.end(), [](const Recording& r) { return !r.has_controller(); });
+  const std::size_t foreign = session.without_law();
   if (foreign > 0) {
     out.push_back(
         fmt::format("{} of {} recordings come without a control law: judged from the recorded voltage.",

@@ -130,6 +130,11 @@ std::string statement_of_left_over(const Unexplained& left) {
   return fmt::format("{:.0f} % of what is missing stays unexplained; {}.", 100 * left.share_left, where);
 }
 
+std::string statement_of_next(const NextExperiment& next, bool more_is_missing) {
+  return fmt::format("separates {}; chance that it decides{}: {:.0f} %.", next.separates,
+                     more_is_missing ? ", were nothing else missing" : "", 100 * next.chance);
+}
+
 std::string statement_of_periods(const std::vector<double>& periods_m) {
   if (periods_m.empty()) return {};
   std::vector<std::string> words;

@@ -25,6 +25,10 @@ std::string statement_of_windows(const Diagnosis& diagnosis);
 /// How much stays unexplained, and along which axis, if any shows it.
 std::string statement_of_left_over(const Unexplained& left);
 
+struct NextExperiment;
+/// "separates a lag from a delay; chance that it decides: 93 %." `more_is_missing`: besides those two.
+std::string statement_of_next(const NextExperiment& next, bool more_is_missing);
+
 /// That pushes with these periods stand above chance without a name; empty where there are none.
 std::string statement_of_periods(const std::vector<double>& periods_m);
 

@@ -6,9 +6,6 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-#include "host/diagnose/locate/axes.hpp"
-#include "host/parallel.hpp"
-
 namespace cartwright {
 namespace {
 
@@ -16,18 +13,6 @@ constexpr std::size_t kFineBins = 60;
 constexpr double kMuch = 2;            // times the mean power
 constexpr double kGoodPart = 1.0 / 4;  // of all power: less is where the cart happened to be
 constexpr double kLowShare = 0.1, kHighShare = 0.9;
-
-std::vector<Observation> seen_by(const Model& model, const Session& session, const Fit& fit,
-                                 const FitOptions& options) {
-  const ObserverGains gains = observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s);
-  ObserverOptions keep;
-  keep.keep_states = true;
-  std::vector<Observation> seen(session.recordings.size());
-  parallel_for(seen.size(), options.threads, [&](std::size_t n) {
-    seen[n] = observe(model, gains, session.rig, session.recordings[n], keep);
-  });
-  return seen;
-}
 
 /// The stretch that holds most power beyond `kMuch` times the mean.
 std::vector<double> strongest_stretch(const AxisBins& axis, const std::vector<std::vector<double>>& push) {
@@ -87,30 +72,43 @@ std::vector<double> band(const Rig& rig, const std::vector<std::vector<double>>&
 
 }  // namespace
 
-Where where_it_acts(Term effect, const Session& session, const Fit& fit, const FitOptions& options) {
+Acts::Acts(const Session& session, const Fit& fit, const FitOptions& options)
+    : session_(session),
+      fit_(fit),
+      threads_(options.threads),
+      gains_(observer_gains(fit.noise, session.rig.period_s(), options.damping_per_s)),
+      with_(seen_by(fit.model)),
+      axes_(axes_of(session, with_, kFineBins)) {}
+
+std::vector<Observation> Acts::seen_by(const Model& model) const {
+  ObserverOptions keep;
+  keep.keep_states = true;
+  return observe(model, gains_, session_, keep, threads_);
+}
+
+Where Acts::where(Term effect) const {
   Where where = nowhere();
   if (effect == Term::encoder_eccentricity || effect == Term::encoder_missed_counts) return where;
-  Model without_it = fit.model;
+  Model without_it = fit_.model;
   without_it.remove(effect);
-  const std::vector<Observation> with = seen_by(fit.model, session, fit, options);
-  const std::vector<Observation> without = seen_by(without_it, session, fit, options);
-  std::vector<std::vector<double>> push(with.size());
+  const std::vector<Observation> without = seen_by(without_it);
+  std::vector<std::vector<double>> push(with_.size());
   for (std::size_t n = 0; n < push.size(); ++n) {
-    for (std::size_t k = 0; k < session.recordings[n].size(); ++k) {
+    for (std::size_t k = 0; k < session_.recordings[n].size(); ++k) {
       // What an observer adds by itself is no part of its model.
       const auto own = [k](const Observation& seen) {
         return seen.acceleration_m_per_s2[k] - seen.disturbance_m_per_s2[k];
       };
-      push[n].push_back(k < settling_rows(session.rig) ? 0 : own(with[n]) - own(without[n]));
+      push[n].push_back(k < settling_rows(session_.rig) ? 0 : own(with_[n]) - own(without[n]));
     }
   }
-  for (const AxisBins& axis : axes_of(session, with, kFineBins)) {
+  for (const AxisBins& axis : axes_) {
     if (where.contains(axis.axis)) where[axis.axis] = strongest_stretch(axis, push);
   }
-  where["frequency_hz"] = band(session.rig, push);
+  where["frequency_hz"] = band(session_.rig, push);
   if (effect == Term::external_disturbance) {
-    const double start_s = fit.model[Parameter::disturbance_start];
-    where["time_s"] = {start_s, start_s + fit.model[Parameter::disturbance_duration]};
+    const double start_s = fit_.model[Parameter::disturbance_start];
+    where["time_s"] = {start_s, start_s + fit_.model[Parameter::disturbance_duration]};
   }
   return where;
 }

@@ -32,17 +32,17 @@ std::vector<double> even_edges(const Columns& values, std::size_t bins) {
 
 AxisBins binned(std::string axis, std::string parity, const Columns& values, std::vector<double> edges,
                 const std::vector<std::vector<signed char>>& direction, std::vector<std::string> names = {}) {
-  AxisBins out{std::move(axis), std::move(parity), std::move(edges), {}, direction, std::move(names)};
+  AxisBins bins{std::move(axis), std::move(parity), std::move(edges), {}, direction, std::move(names)};
   for (const auto& column : values) {
     std::vector<int> rows(column.size(), -1);
     for (std::size_t k = 0; k < column.size(); ++k) {
-      if (std::isnan(column[k]) || out.edges.size() < 2) continue;
-      const auto above = std::upper_bound(out.edges.begin() + 1, out.edges.end() - 1, column[k]);
-      rows[k] = static_cast<int>(above - out.edges.begin()) - 1;
+      if (std::isnan(column[k]) || bins.edges.size() < 2) continue;
+      const auto above = std::upper_bound(bins.edges.begin() + 1, bins.edges.end() - 1, column[k]);
+      rows[k] = static_cast<int>(above - bins.edges.begin()) - 1;
     }
-    out.bin.push_back(std::move(rows));
+    bins.bin.push_back(std::move(rows));
   }
-  return out;
+  return bins;
 }
 
 }  // namespace

@@ -35,10 +35,7 @@ Observed observed(const Session& session, const Model& model, const ObserverGain
   ObserverOptions keep;
   keep.keep_states = true;
   Observed out{
-      std::vector<Observation>(session.recordings.size()), {}, rows_at_rest(session, options.rest_s)};
-  parallel_for(out.seen.size(), options.threads, [&](std::size_t n) {
-    out.seen[n] = observe(model, gains, session.rig, session.recordings[n], keep);
-  });
+      observe(model, gains, session, keep, options.threads), {}, rows_at_rest(session, options.rest_s)};
   out.axes = axes_of(session, out.seen);
   return out;
 }

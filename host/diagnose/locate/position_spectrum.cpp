@@ -51,8 +51,8 @@ class WaveColumns {
         rests_(rows_at_rest(session, options.rest_s)) {
     ObserverOptions keep;
     keep.keep_states = true;
-    for (const Recording& r : session.recordings)
-      velocity_.push_back(observe(base.model, gains_, session.rig, r, keep).velocity_m_per_s);
+    for (Observation& seen : observe(base.model, gains_, session, keep, options.threads))
+      velocity_.push_back(std::move(seen.velocity_m_per_s));
   }
 
   /// Sine and cosine of a push and, with four lanes, of the reading.

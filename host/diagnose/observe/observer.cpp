@@ -8,6 +8,7 @@
 
 #include "common/model/plant.hpp"
 #include "host/diagnose/observe/two_mass_gain.hpp"
+#include "host/parallel.hpp"
 
 namespace cartwright {
 namespace {
@@ -122,6 +123,15 @@ Observation observe(const Model& model, const ObserverGains& gains, const Rig& r
                   state.velocity_m_per_s + gain.velocity_per_s * error);
   }
   return out;
+}
+
+std::vector<Observation> observe(const Model& model, const ObserverGains& gains, const Session& session,
+                                 const ObserverOptions& options, unsigned threads) {
+  std::vector<Observation> seen(session.recordings.size());
+  parallel_for(seen.size(), threads, [&](std::size_t n) {
+    seen[n] = observe(model, gains, session.rig, session.recordings[n], options);
+  });
+  return seen;
 }
 
 }  // namespace cartwright

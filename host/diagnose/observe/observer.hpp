@@ -39,6 +39,10 @@ struct ObserverOptions {
 Observation observe(const Model& model, const ObserverGains& gains, const Rig& rig,
                     const Recording& recording, const ObserverOptions& options = {});
 
+/// The same of every recording of a session, so many at a time.
+std::vector<Observation> observe(const Model& model, const ObserverGains& gains, const Session& session,
+                                 const ObserverOptions& options, unsigned threads);
+
 /// Rows at the beginning of a recording while the observer settles; they do not count.
 std::size_t settling_rows(const Rig& rig);
 

@@ -37,7 +37,7 @@ class Explainer {
  public:
   Explainer(const Session& session, const Model& nominal, const SearchOptions& options)
       : session_(session), nominal_(nominal), options_(options), facts_(facts_of(session)) {
-    fit_options_ = options.fit.value_or(options_for(session, nominal));
+    fit_options_ = options.fit ? *options.fit : options_for(session, nominal);
     fit_options_.threads = options.threads;  // where fits run side by side, the last one gets them all
   }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
-#include <utility>
 
 #include "host/diagnose/search/promises.hpp"
 
@@ -28,10 +26,9 @@ bool many_minima(Term term) {
          term == Term::stribeck_friction || term == Term::position_dependent_friction;
 }
 
-/// A term and which of its laws: before it breaks away friction gives in one of two ways.
-using Law = std::pair<Term, double>;
-Law law_of(const Promise& promise) {
-  return {promise.term, promise.start[Parameter::presliding_dahl_exponent]};
+/// Which of a term's laws: before it breaks away friction gives in one of two ways.
+double law_of(const Promise& promise) {
+  return promise.start[Parameter::presliding_dahl_exponent];
 }
 
 /// A coupling with play shows that play more than that it gives; where it is told the other way round, a
@@ -58,8 +55,7 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
       least_gain / (beside_gap ? kMostGainOverPromiseBesideGap : kMostGainOverPromise);
   const bool no_gap = gives_rather_than_plays(promises);
   std::vector<Promise> chosen;
-  std::map<Law, std::size_t> starts;
-  std::set<Term> terms;
+  std::map<Term, std::map<double, std::size_t>> starts;  // of each law of each term
   for (const Promise& promise : promises) {
     const double bar =
         std::max({kLeastPromise, least_promise, least_share * promises.front().log_likelihood_gain});
@@ -70,12 +66,12 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
       continue;
     }
     if (is_gap(promise) && no_gap) continue;
-    const Law law = law_of(promise);
-    if (!terms.contains(promise.term) && terms.size() >= most_terms) continue;
+    if (!starts.contains(promise.term) && starts.size() >= most_terms) continue;
+    std::size_t& of_law = starts[promise.term][law_of(promise)];
     // A second start is worth its time only where it promises nearly as much.
-    if (starts[law] >= most_starts) continue;
-    if (starts[law] > 0 && !many_minima(promise.term)) continue;
-    ++starts[law], terms.insert(promise.term);
+    if (of_law >= most_starts) continue;
+    if (of_law > 0 && !many_minima(promise.term)) continue;
+    ++of_law;
     chosen.push_back(promise);
   }
   return chosen;

@@ -220,10 +220,8 @@ void what_else(Report& page, const Diagnosis& d) {
 void next(Report& page, const Diagnosis& d) {
   page.section("What should I measure next?");
   if (d.next_experiment) {
-    page.paragraph(fmt::format("{} separates {}; chance that it decides{}: {:.0f} %.",
-                               d.next_experiment->experiment, d.next_experiment->separates,
-                               d.unexplained ? ", were nothing else missing" : "",
-                               100 * d.next_experiment->chance));
+    page.paragraph(d.next_experiment->experiment + " " +
+                   statement_of_next(*d.next_experiment, d.unexplained.has_value()));
     page.code("cartwright device run " + d.next_experiment->experiment);
   } else if (std::any_of(d.effects.begin(), d.effects.end(),
                          [](const Effect& effect) { return !effect.equivalent.empty(); })) {
