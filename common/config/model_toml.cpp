@@ -63,6 +63,12 @@ Result<void> read_term(Model& model, Term term, const toml::table& table, std::s
                                  key.str(), info(term).name, keys_of(term)));
     }
   }
+  if (model[Parameter::presliding_damping_ratio] > 0 && model[Parameter::presliding_dahl_exponent] == 0) {
+    return failure(
+        fmt::format("{}: presliding_friction.damping_ratio needs dahl_exponent > 0: an elastic "
+                    "bristle has no damping",
+                    where(source, table.source())));
+  }
   return {};
 }
 

@@ -25,10 +25,17 @@ double carried(double r0, double way, double exponent) noexcept {
   return rest > 0 ? 1 - std::pow(rest, 1 / power) : 1.0;
 }
 
+/// How much of a way the bristle still takes, where it carries a share r of its level that way: (1 - r)^n.
+double taken(double r, double exponent) noexcept {
+  const double left = std::max(1 - r, 0.0);
+  return exponent == 1 ? left : std::pow(left, exponent);
+}
+
 }  // namespace
 
 /// One mass through one inner step where friction is a Dahl bristle: it neither sticks nor breaks away, it
-/// carries more and more of its level the farther the cart moves one way. Runge-Kutta between reversals.
+/// carries more and more of its level the farther the cart moves one way, and damps what it takes of that
+/// way. Runge-Kutta between reversals.
 void Plant::hold_dahl(double duration_s) noexcept {
   const PlantTerms& p = terms_;
   double left = duration_s;
@@ -36,12 +43,18 @@ void Plant::hold_dahl(double duration_s) noexcept {
     const double y = state_.position_m, v = state_.velocity_m_per_s, t = state_.time_s;
     const double level_before = p.level(y, v);
     const double share = level_before > 0 ? p.bristle_stiffness * state_.bristle_m / level_before : 0;
+    const auto share_at = [&](double y_now, double level) {
+      const double moved = y_now - y, side = moved != 0 ? sign_of(moved) : 1.0;
+      const double way = std::abs(moved) * p.bristle_stiffness / level;
+      return side * carried(std::clamp(side * share, -1.0, 1.0), way, p.dahl_exponent);
+    };
     const auto friction = [&](double y_now, double v_now) {
       const double level = p.level(y_now, v_now);
       if (level <= 0) return 0.0;
-      const double moved = y_now - y, side = moved != 0 ? sign_of(moved) : 1.0;
-      const double way = std::abs(moved) * p.bristle_stiffness / level;
-      return level * side * carried(std::clamp(side * share, -1.0, 1.0), way, p.dahl_exponent);
+      const double share_now = share_at(y_now, level);
+      const double pull = level * share_now;
+      if (p.bristle_damping == 0) return pull;
+      return pull + p.bristle_damping * v_now * taken(sign_of(v_now) * share_now, p.dahl_exponent);
     };
     const auto rate = [&](double y_now, double v_now, double t_now, double drive_now) {
       return p.driven(drive_now, v_now, 1.0) + p.pushes(y_now, t_now) + extra_push_ - friction(y_now, v_now);
@@ -61,7 +74,9 @@ void Plant::hold_dahl(double duration_s) noexcept {
     }
     state_.position_m = next.position_m;
     state_.velocity_m_per_s = reverses ? 0 : next.velocity_m_per_s;
-    state_.bristle_m = friction(next.position_m, next.velocity_m_per_s) / p.bristle_stiffness;
+    const double level_after = p.level(state_.position_m, state_.velocity_m_per_s);
+    state_.bristle_m =
+        level_after > 0 ? level_after * share_at(state_.position_m, level_after) / p.bristle_stiffness : 0;
     state_.armature_V = next.drive.armature_V;
     state_.time_s += h;
     left -= h;

@@ -39,9 +39,10 @@ double rate_apart(const PlantTerms& p) {
   oscillates(steepest);
   if (p.stribeck_excess > 0) w = std::max(w, p.stribeck_excess * p.stribeck_inverse_speed);
   if (p.has_bristle) {
-    // After a reversal a Dahl bristle is 2^n times as stiff.
-    const double stiffer = p.has_dahl_bristle ? std::exp2(p.dahl_exponent) : 1.0;
-    oscillates(stiffer * p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
+    // After a reversal a Dahl bristle is 2^n times as stiff, and damps as much more.
+    const double more = p.has_dahl_bristle ? std::exp2(p.dahl_exponent) : 1.0;
+    oscillates(more * p.bristle_stiffness / (p.two_masses ? p.load_share : 1.0));
+    if (p.has_dahl_bristle) w = std::max(w, more * p.bristle_damping);
   }
   return w;
 }
@@ -85,6 +86,8 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   heating_loss = value(Term::motor_heating, Parameter::heating_gain_loss, 0);
   heating_rate = 1 / value(Term::motor_heating, Parameter::heating_time_constant, 1);
   bristle_stiffness = value(Term::presliding_friction, Parameter::presliding_stiffness, 0);
+  bristle_damping = 2 * value(Term::presliding_friction, Parameter::presliding_damping_ratio, 0) *
+                    std::sqrt(bristle_stiffness);
   dahl_exponent = value(Term::presliding_friction, Parameter::presliding_dahl_exponent, 0);
   gap = value(Term::backlash, Parameter::backlash_gap, 0);
 

@@ -135,6 +135,8 @@ constexpr std::array<ParameterInfo, kParameterCount> kParameters{{
      "bristle stiffness"},
     {P::presliding_dahl_exponent, T::presliding_friction, "dahl_exponent", 0, 1, 0.0,
      "0: elastic up to breakaway; 1: gives more and more on the way there"},
+    {P::presliding_damping_ratio, T::presliding_friction, "damping_ratio", 0, 10, 0.0,
+     "of the cart swinging on a bristle with dahl_exponent > 0"},
     {P::disturbance_start, T::external_disturbance, "start_s", -kInf, kInf, {}, "start, on the file's time"},
     {P::disturbance_duration, T::external_disturbance, "duration_s", kTiny, kInf, {}, "duration"},
     {P::disturbance_peak, T::external_disturbance, "peak_m_per_s2", -kInf, kInf, {}, "greatest push"},

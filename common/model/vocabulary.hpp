@@ -90,12 +90,13 @@ enum class Parameter {
   missed_speed,
   presliding_stiffness,
   presliding_dahl_exponent,
+  presliding_damping_ratio,
   disturbance_start,
   disturbance_duration,
   disturbance_peak,
   amplifier_gain_difference,
 };
-inline constexpr std::size_t kParameterCount = 55;
+inline constexpr std::size_t kParameterCount = 56;
 
 /// The numbers of something that repeats along the way.
 struct PeriodicTerm {

@@ -10,22 +10,24 @@ namespace {
 
 using P = Parameter;
 
-/// Friction that carries more and more of its level the farther the cart moves one way, from place to place.
+/// Friction that carries more and more of its level the farther the cart moves one way, from place to place,
+/// and resists the speed at which it gives.
 class DahlBristle {
  public:
-  DahlBristle(double level_m_per_s2, double stiffness_per_s2)
-      : level_(level_m_per_s2), per_m_(stiffness_per_s2 / level_m_per_s2) {}
+  DahlBristle(double level_m_per_s2, double stiffness_per_s2, double damping_per_s = 0)
+      : level_(level_m_per_s2), per_m_(stiffness_per_s2 / level_m_per_s2), damping_(damping_per_s) {}
 
-  double push(double t_s, double y_m) {
+  double push(double t_s, double y_m, double v_m_per_s) {
     if (t_s < last_t_s_) share_ = 0, last_y_m_ = y_m;  // another recording
     const double moved_m = y_m - last_y_m_, side = moved_m > 0 ? 1 : -1;
     share_ = side * (1 - (1 - side * share_) * std::exp(-per_m_ * std::abs(moved_m)));
     last_t_s_ = t_s, last_y_m_ = y_m;
-    return -level_ * share_;
+    const double gives = v_m_per_s * (1 - (v_m_per_s > 0 ? share_ : -share_));
+    return -level_ * share_ - damping_ * gives;
   }
 
  private:
-  double level_, per_m_;
+  double level_, per_m_, damping_;
   double share_ = 0, last_y_m_ = 0, last_t_s_ = 1e9;
 };
 
@@ -34,12 +36,27 @@ TEST(Dahl, ABristleThatGivesMoreAndMoreIsNamedWithItsStiffness) {
   DahlBristle bristle(0.4, 1.2e4);
   test::IndependentCart cart;
   cart.coulomb_m_per_s2 = 0;
-  cart.push = [&bristle](double t, double y, double) { return bristle.push(t, y); };
+  cart.push = [&bristle](double t, double y, double v) { return bristle.push(t, y, v); };
   const Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, 0.4));
   ASSERT_EQ(d.effects.size(), 1u) << name(d.verdict);
   EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
   EXPECT_EQ(d.model[P::presliding_dahl_exponent], 1);
   EXPECT_NEAR(d.model[P::presliding_stiffness], 1.2e4, 600);
+  EXPECT_FALSE(d.unexplained.has_value());
+}
+
+/// Without its damping this one is unexplained.
+TEST(Dahl, ADampedBristleIsNamedWithItsDamping) {
+  constexpr double kStiffness = 1.2e4, kRatio = 0.3;
+  DahlBristle bristle(0.4, kStiffness, 2 * kRatio * std::sqrt(kStiffness));
+  test::IndependentCart cart;
+  cart.coulomb_m_per_s2 = 0;
+  cart.push = [&bristle](double t, double y, double v) { return bristle.push(t, y, v); };
+  const Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, 0.4));
+  ASSERT_EQ(d.effects.size(), 1u) << name(d.verdict);
+  EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
+  EXPECT_NEAR(d.model[P::presliding_stiffness], kStiffness, 0.05 * kStiffness);
+  EXPECT_NEAR(d.model[P::presliding_damping_ratio], kRatio, 0.05 * kRatio);
   EXPECT_FALSE(d.unexplained.has_value());
 }
 

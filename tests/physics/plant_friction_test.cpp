@@ -230,6 +230,47 @@ TEST(DahlFriction, SlidesLikeCoulombFriction) {
   EXPECT_NEAR(farthest, 0.3 * 0.3 / (2 * level) + level / stiffness, 1e-7);
 }
 
+TEST(DahlFriction, SwingsOutWithItsDampingRatio) {
+  const double stiffness = 4e4, ratio = 0.1, nudge = 1e-6;  // far below its level
+  const double w = std::sqrt(stiffness), swing = w * std::sqrt(1 - ratio * ratio);
+  Plant plant = plant_at(dahl(0.5, stiffness).set(P::presliding_damping_ratio, ratio), 0, nudge);
+  for (int tick = 1; tick <= 50; ++tick) {
+    plant.advance(0, 1e-3);
+    const double t = 1e-3 * tick;
+    ASSERT_NEAR(plant.state().position_m, nudge / swing * std::exp(-ratio * w * t) * std::sin(swing * t),
+                1e-3 * nudge / swing);
+  }
+}
+
+/// The LuGre model in many small steps.
+double lugre_position_m(double level, double stiffness, double damping, const std::vector<double>& pushes,
+                        double each_s) {
+  constexpr double kStep_s = 1e-7;
+  double y = 0, v = 0, z = 0;
+  for (const double push : pushes) {
+    for (double t = 0; t < each_s; t += kStep_s) {
+      const double stretches = v - stiffness * std::abs(v) / level * z;
+      v += kStep_s * (push - stiffness * z - damping * stretches);
+      z += kStep_s * stretches;
+      y += kStep_s * v;
+    }
+  }
+  return y;
+}
+
+TEST(DahlFriction, WithDampingIsTheLuGreModel) {
+  const double level = 0.5, stiffness = 1e4;
+  const std::vector<double> pushes{0.4, 0.8, -0.6, 0.1, -0.3, 2.0, -2.0};
+  for (const double ratio : {0.05, 0.5, 1.0}) {
+    Plant plant = plant_at(dahl(level, stiffness).set(P::presliding_damping_ratio, ratio), 0);
+    for (const double push : pushes) run(plant, push, 0.05);
+    const double damping = 2 * ratio * std::sqrt(stiffness);
+    EXPECT_NEAR(plant.state().position_m, lugre_position_m(level, stiffness, damping, pushes, 0.05),
+                0.01 * level / stiffness)
+        << "damping ratio " << ratio;
+  }
+}
+
 TEST(DahlFriction, WithASmallExponentIsElasticUpToBreakaway) {
   const double level = 0.5, stiffness = 4e4;
   const Model sharp = bristle(level, stiffness).set(P::viscous_coefficient, 50);

@@ -148,6 +148,9 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
     case P::heating_time_constant:
       logarithmic(0.05, 10 * facts.longest_recording_s);
       break;
+    case P::presliding_damping_ratio:
+      free.upper = 2;
+      break;
     case P::presliding_stiffness:
       logarithmic(1e2 * std::pow(facts.slower(), 2), 1e6 * std::pow(facts.faster(), 2));
       break;
@@ -171,6 +174,8 @@ std::vector<FreeParameter> free_parameters(const Model& model, const SessionFact
     // Speed threshold and rate of lost counts are read off the bursts, not fitted.
     if (entry.term == T::encoder_missed_counts) continue;
     if (entry.id == P::presliding_dahl_exponent) continue;  // a law, 0 or 1
+    const bool elastic = model[P::presliding_dahl_exponent] == 0;
+    if (entry.id == P::presliding_damping_ratio && elastic) continue;  // not damped
     if (of_absent_wave(entry.id, model)) continue;
     free.push_back(free_parameter(entry.id, facts, model));
   }
@@ -228,8 +233,8 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
     saturations.push_back({{P::saturation_limit, share * facts.most_voltage_V}});
   }
   add(T::voltage_saturation, {P::saturation_limit}, saturations);
-  std::vector<std::vector<std::pair<P, double>>> lags, delays, stribecks, exponentials, heatings, preslidings,
-      gaps, couplings, spots;
+  std::vector<std::vector<std::pair<P, double>>> lags, delays, stribecks, exponentials, heatings, elastics,
+      dahls, gaps, couplings, spots;
   for (const double late_s : at_both_rates({0.0005, 0.003}, facts, -1)) {
     lags.push_back({{P::armature_time_constant, late_s}});
     delays.push_back({{P::transport_delay, late_s}});
@@ -251,12 +256,16 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   }
   add(T::motor_heating, {P::heating_gain_loss, P::heating_time_constant}, heatings);
   if (coulomb) {
-    for (const double dahl_exponent : {0.0, 1.0}) {
-      for (const double stiffness : at_both_rates({3e3, 1e4, 3e4, 1e5}, facts, 2))
-        preslidings.push_back(
-            {{P::presliding_stiffness, stiffness}, {P::presliding_dahl_exponent, dahl_exponent}});
+    for (const double stiffness : at_both_rates({3e3, 1e4, 3e4, 1e5}, facts, 2)) {
+      elastics.push_back({{P::presliding_stiffness, stiffness}});
+      for (const double damping_ratio : {0.05, 0.5}) {
+        dahls.push_back({{P::presliding_stiffness, stiffness},
+                         {P::presliding_dahl_exponent, 1},
+                         {P::presliding_damping_ratio, damping_ratio}});
+      }
     }
-    add(T::presliding_friction, {P::presliding_stiffness}, preslidings);
+    add(T::presliding_friction, {P::presliding_stiffness}, elastics);
+    add(T::presliding_friction, {P::presliding_stiffness, P::presliding_damping_ratio}, dahls);
   }
   const double count = facts.count_m > 0 ? facts.count_m : 1e-4 * travel;
   for (double gap = 4 * count; gap < 0.03 * travel && gaps.size() < 6; gap *= 2.5) {

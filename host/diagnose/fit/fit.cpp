@@ -229,6 +229,7 @@ double Fit::standard_error(Parameter parameter) const {
 }
 
 bool Fit::at_bound(Parameter parameter) const {
+  if (model[parameter] == info(parameter).default_value) return false;
   for (const FreeParameter& p : free) {
     if (p.id == parameter) return model[p.id] <= p.lower || model[p.id] >= p.upper;
   }

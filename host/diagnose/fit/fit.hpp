@@ -58,6 +58,7 @@ struct Fit {
   bool converged = false;
 
   double standard_error(Parameter parameter) const;
+  /// An optional one at its default is absent, and at no bound.
   bool at_bound(Parameter parameter) const;
 };
 

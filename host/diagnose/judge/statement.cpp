@@ -91,9 +91,13 @@ std::string statement(Term term, const Model& m) {
           "The encoder loses about {:.3g} counts {:.2g} times a second while faster than {:.3g} m/s.",
           m[P::missed_burst], m[P::missed_rate], m[P::missed_speed]);
     case Term::presliding_friction:
-      return fmt::format("Before it breaks away, friction gives like a spring of {:.3g} m/s^2 per mm{}.",
-                         1e-3 * m[P::presliding_stiffness],
-                         m[P::presliding_dahl_exponent] > 0 ? ", and softens on the way there (Dahl)" : "");
+      return fmt::format(
+          "Before it breaks away, friction gives like a spring of {:.3g} m/s^2 per mm{}.",
+          1e-3 * m[P::presliding_stiffness],
+          m[P::presliding_dahl_exponent] == 0
+              ? ""
+              : fmt::format(", and softens on the way there ({})",
+                            m[P::presliding_damping_ratio] > 0 ? "LuGre's law" : "Dahl's law"));
     case Term::external_disturbance:
       return fmt::format(
           "Something pushed the cart in {} for {:.3g} s from t = {:.4g} s, {:.3g} m/s^2 at most.",
