@@ -185,6 +185,19 @@ TEST(Diagnosis, RefusesFrictionThatWarmsUp) {
   EXPECT_FALSE(d.unexplained->where.at("time_s").empty());
 }
 
+/// Its ends look like steps of the reading.
+TEST(Diagnosis, APushThatBeginsAndEndsSuddenlyIsAllThereIs) {
+  IndependentCart cart;
+  cart.seed = 508;  // the ends of this one were taken for lost counts
+  Session session = battery(cart);
+  cart.push = [](double t, double, double) { return t > 1.7 && t < 1.95 ? 3.0 : 0.0; };
+  session.recordings[3] = battery(cart).recordings[3];
+  const Diagnosis d = diagnose(session, nominal());
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().term, Term::external_disturbance);
+  EXPECT_EQ(d.model.disturbance_recording, session.recordings[3].file);
+}
+
 TEST(Diagnosis, FindsAPushInTheRecordingItWouldHaveKeptOut) {
   Session session = battery({});
   IndependentCart pushed;

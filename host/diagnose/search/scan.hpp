@@ -39,7 +39,7 @@ struct ReadingJump {
 };
 
 /// Lost counts: steps of the reading that a matched filter finds, of at least two counts and far beyond
-/// noise.
+/// noise. Not within a push of `base`: where one begins and ends suddenly looks like steps.
 std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, const FitOptions& options);
 
 /// Speed about a row, from readings 10 ms apart (one tick at least).

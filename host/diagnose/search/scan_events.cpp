@@ -36,6 +36,12 @@ std::vector<double> response(const ObserverGains& gains, const Rig& rig, double 
   return out;
 }
 
+bool within_push(const Model& model, const Recording& recording, std::size_t row) {
+  if (!model.has(Term::external_disturbance) || model.disturbance_recording != recording.file) return false;
+  const double since_s = recording.t_s[row] - model[Parameter::disturbance_start];
+  return since_s >= 0 && since_s <= model[Parameter::disturbance_duration];
+}
+
 }  // namespace
 
 std::vector<Promise> scan_pushes(const Session& session, const Fit& base, const SessionFacts& facts,
@@ -150,6 +156,7 @@ std::vector<ReadingJump> scan_jumps(const Session& session, const Fit& base, con
       }
       if (where == rows) break;
       for (std::size_t k = 0; k < shape.size() && where + k < rows; ++k) e[where + k] -= step * shape[k];
+      if (within_push(base.model, session.recordings[n], where + skip)) continue;
       jumps.push_back({n, where + skip, count * std::round(step / count)});
     }
   }
