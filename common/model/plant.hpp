@@ -41,9 +41,10 @@ struct PlantOptions {
 /// velocity is located inside the step, the velocity set to exactly zero there, and the mass then stays still
 /// for as long as the net force is within the breakaway level. Holds for any step size. A presliding bristle
 /// is elastic until it carries the breakaway level, then slides, and is elastic again from the next
-/// standstill. With backlash or a flexible coupling there are two masses, each with its own friction and its
-/// own sticking; backlash contact is rigid and its impacts are inelastic, unless its teeth give. Constant
-/// push, cogging, spring and disturbance act on the cart, the drive on the motor.
+/// standstill; by Dahl's or LuGre's law it gives all along (plant_dahl.cpp). With backlash or a flexible
+/// coupling there are two masses, each with its own friction and its own sticking; backlash contact is rigid
+/// and its impacts are inelastic, unless its teeth give. Constant push, cogging, spring and disturbance act
+/// on the cart, the drive on the motor.
 ///
 /// Order of the input chain: dead zone, saturation, gain asymmetry, delay, lag, current limit.
 /// No allocation, no exception; copying copies the whole state.

@@ -34,8 +34,12 @@ double taken(double r, double exponent) noexcept {
 }  // namespace
 
 /// One mass through one inner step where friction is a Dahl bristle: it neither sticks nor breaks away, it
-/// carries more and more of its level the farther the cart moves one way, and damps what it takes of that
-/// way. Runge-Kutta between reversals.
+/// carries a share r of its level F that grows the farther the cart moves one way, and damps what it takes of
+/// that way:
+///
+///     friction = F r + d v (1 - r sgn v)^n
+///
+/// d damping; with n = 1 the LuGre model. Runge-Kutta between reversals.
 void Plant::hold_dahl(double duration_s) noexcept {
   const PlantTerms& p = terms_;
   double left = duration_s;

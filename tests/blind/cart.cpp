@@ -118,15 +118,15 @@ double Cart::level(double t_s, double y_m, double v_m_per_s, double drive) const
 
 double Cart::push(double t_s) const {
   const double from_neutral = y_m_ - p_.spring_neutral_m;
+  const double tooth = std::sin(2 * M_PI * y_m_ / p_.cogging_period_m + p_.cogging_phase_rad);
   double push = p_.constant_m_per_s2 + disturbance_ - p_.spring_per_s2 * from_neutral -
                 p_.cubic_spring_per_m2_s2 * y_m_ * y_m_ * y_m_ +
-                p_.cogging_m_per_s2 * std::sin(2 * M_PI * y_m_ / p_.cogging_period_m + p_.cogging_phase_rad) +
+                p_.cogging_m_per_s2 * (p_.cogging_square ? sign(tooth) : tooth) +
                 p_.vibration_m_per_s2 * std::sin(2 * M_PI * p_.vibration_hz * t_s + recording_);
   if (y_m_ > p_.bumper_at_m) push -= p_.bumper_per_s2 * (y_m_ - p_.bumper_at_m);
   const double into = (t_s - p_.push_start_s) / p_.push_duration_s;
   if (recording_ == p_.push_recording && into > 0 && into < 1) {
-    const double s = std::sin(M_PI * into);
-    push += p_.push_peak_m_per_s2 * s * s;
+    push += p_.push_peak_m_per_s2 * std::pow(std::sin(M_PI * into), p_.push_power);
   }
   return push;
 }
@@ -146,11 +146,13 @@ void Cart::step_one_mass(double t_s, double drive, double h) {
   const double most = level(t_s, y_m_, v_m_per_s_, drive);
   const double before = v_m_per_s_;
   if (p_.bristle_per_s2 > 0) {
-    // An elastic bristle that slips when it is stretched as far as friction goes.
-    force -= p_.bristle_per_s2 * bristle_m_;
-    v_m_per_s_ += h * force;
+    // A bristle that slips when it is stretched as far as friction goes: elastic up to there, or less and
+    // less.
     const double reach = most / p_.bristle_per_s2;
-    bristle_m_ = std::clamp(bristle_m_ + h * v_m_per_s_, -reach, reach);
+    const double yields = p_.bristle_yields ? std::abs(v_m_per_s_) / reach * bristle_m_ : 0;
+    force -= p_.bristle_per_s2 * bristle_m_ + p_.bristle_damping_per_s * (v_m_per_s_ - yields);
+    v_m_per_s_ += h * force;
+    bristle_m_ = std::clamp(bristle_m_ + h * (v_m_per_s_ - yields), -reach, reach);
   } else {
     v_m_per_s_ = with_dry_friction(v_m_per_s_, force, most, h);
   }

@@ -21,6 +21,7 @@ struct CartPhysics {
   double viscous_difference = 0;
   double spot_peak_m_per_s2 = 0, spot_centre_m = 0, spot_width_m = 1;
   double cogging_m_per_s2 = 0, cogging_period_m = 1, cogging_phase_rad = 0;
+  bool cogging_square = false;
   double dead_zone_V = 0, saturation_V = kNone, current_limit_m_per_s2 = kNone;
   double lag_s = 0;
   double delay_s = 0;
@@ -29,9 +30,11 @@ struct CartPhysics {
   double heating_loss = 0, heating_time_s = 1;
   double eccentricity_m = 0, eccentricity_period_m = 1, eccentricity_phase_rad = 0;
   double lost_burst_counts = 0, lost_rate_per_s = 0, lost_speed_m_per_s = 0;
-  double bristle_per_s2 = 0;
+  double bristle_per_s2 = 0, bristle_damping_per_s = 0;
+  bool bristle_yields = false;  // it gives more and more before it slips
   int push_recording = -1;
   double push_start_s = 0, push_duration_s = 1, push_peak_m_per_s2 = 0;
+  int push_power = 2;  // of the half sine that it is
   double amplifier_difference = 0;
 
   // Two masses: motor and cart, the encoder on the cart.

@@ -34,7 +34,8 @@ std::string effects_of(const Case& asked) {
 }
 
 const std::vector<std::string>& sets() {
-  static const std::vector<std::string> names{"effects", "pairs", "outside", "foreign", "clean", "change"};
+  static const std::vector<std::string> names{"effects", "laws",  "pairs", "outside",
+                                              "foreign", "clean", "change"};
   return names;
 }
 
@@ -47,6 +48,7 @@ std::vector<Case> cases_of(const std::string& set, const Draws& draws) {
     }
   }
   if (set == "effects") return one_each(effects_of_the_vocabulary(), draws);
+  if (set == "laws") return one_each(effects_by_other_laws(), draws);
   if (set == "outside") return one_each(effects_outside(), draws);
   if (set == "foreign") return one_each(effects_foreign(), draws);
   for (std::uint64_t seed = draws.first; seed < draws.first + draws.seeds; ++seed) {

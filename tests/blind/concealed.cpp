@@ -1,5 +1,6 @@
 #include "tests/blind/concealed.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -27,7 +28,7 @@ class Draw {
 };
 
 struct Hidden {
-  const char* name;
+  std::string_view name;
   std::function<void(Draw&, CartPhysics&, std::map<std::string, double>&)> conceal;
 };
 
@@ -149,6 +150,48 @@ const std::vector<Hidden>& vocabulary() {
   return list;
 }
 
+void conceal(std::string_view name, Draw& d, CartPhysics& p, Truth& t) {
+  const auto& list = vocabulary();
+  std::find_if(list.begin(), list.end(), [&](const Hidden& one) {
+    return one.name == name;
+  })->conceal(d, p, t);
+}
+
+/// Named by what stands before the dot.
+const std::vector<Hidden>& laws() {
+  static const std::vector<Hidden> list{{"presliding_friction.dahl",
+                                         [](Draw& d, CartPhysics& p, Truth& t) {
+                                           conceal("presliding_friction", d, p, t);
+                                           p.bristle_yields = true;
+                                         }},
+                                        {"presliding_friction.lugre",
+                                         [](Draw& d, CartPhysics& p, Truth& t) {
+                                           conceal("presliding_friction", d, p, t);
+                                           p.bristle_yields = true;
+                                           const double ratio = t["presliding_friction.damping_ratio"] =
+                                               d.between(0.05, 0.5);
+                                           p.bristle_damping_per_s = 2 * ratio * std::sqrt(p.bristle_per_s2);
+                                         }},
+                                        {"external_disturbance.sudden",
+                                         [](Draw& d, CartPhysics& p, Truth&) {
+                                           Truth of_another_shape;
+                                           conceal("external_disturbance", d, p, of_another_shape);
+                                           p.push_power = 0;
+                                         }},
+                                        {"external_disturbance.half_sine",
+                                         [](Draw& d, CartPhysics& p, Truth&) {
+                                           Truth of_another_shape;
+                                           conceal("external_disturbance", d, p, of_another_shape);
+                                           p.push_power = 1;
+                                         }},
+                                        {"cogging.square", [](Draw& d, CartPhysics& p, Truth&) {
+                                           Truth of_another_shape;
+                                           conceal("cogging", d, p, of_another_shape);
+                                           p.cogging_square = true;
+                                         }}};
+  return list;
+}
+
 const std::vector<Hidden>& outside() {
   static const std::vector<Hidden> list{
       {"x_vibration",
@@ -225,6 +268,11 @@ const std::vector<std::string>& effects_of_the_vocabulary() {
   return names;
 }
 
+const std::vector<std::string>& effects_by_other_laws() {
+  static const std::vector<std::string> names = names_of(laws());
+  return names;
+}
+
 const std::vector<std::string>& effects_outside() {
   static const std::vector<std::string> names = names_of(outside());
   return names;
@@ -249,14 +297,15 @@ Concealed draw(const std::vector<std::string>& effects, Size size, std::uint64_t
   p.disturbance_time_s = d.between(0.003, 0.012);
   p.reading_noise_m = d.between(0.15, 0.4) * p.count_m;
   for (const std::string& effect : effects) {
-    const bool needs_friction = effect == "presliding_friction" || effect == "backlash";
+    const bool needs_friction = effect.starts_with("presliding_friction") || effect == "backlash";
     if (needs_friction && p.coulomb_m_per_s2 == 0) p.coulomb_m_per_s2 = d.between(0.25, 0.6);
     if (effect == "coulomb_friction") c.nominal_has_coulomb = false;
-    for (const auto* list : {&vocabulary(), &outside(), &foreign()}) {
+    for (const auto* list : {&vocabulary(), &laws(), &outside(), &foreign()}) {
       for (const Hidden& one : *list) {
         if (one.name != effect) continue;
         one.conceal(d, p, c.truth);
-        if (list == &vocabulary()) c.expected.push_back(effect);
+        if (list == &vocabulary() || list == &laws())
+          c.expected.push_back(effect.substr(0, effect.find('.')));
       }
     }
   }

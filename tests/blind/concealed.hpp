@@ -30,9 +30,10 @@ struct Concealed {
   bool nominal_has_coulomb = true;
 };
 
-/// Effects of the vocabulary that can be hidden, and effects that it has no name for: those the rules were
-/// made with, and those thought of once the rules stood.
+/// Effects of the vocabulary that can be hidden; some of them by another law than its formula; and effects
+/// that it has no name for: those the rules were made with, and those thought of once the rules stood.
 const std::vector<std::string>& effects_of_the_vocabulary();
+const std::vector<std::string>& effects_by_other_laws();
 const std::vector<std::string>& effects_outside();
 const std::vector<std::string>& effects_foreign();
 

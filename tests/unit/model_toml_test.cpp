@@ -58,6 +58,8 @@ TEST(ModelToml, RefusesWithTheLineAndWhatWouldBeRight) {
   EXPECT_THAT(refusal("[model]\nvoltage_gain_m_per_s2_V = nan\n"), HasSubstr("finite"));
   EXPECT_THAT(refusal(head + "beta = 3\n"), HasSubstr("m.toml:3"));
   EXPECT_THAT(refusal(head + "[model.viscous]\nc = 1\n"), HasSubstr("unknown term [model.viscous]"));
+  EXPECT_THAT(refusal(head + "[model.presliding_friction]\nstiffness_per_s2 = 1e4\ndamping_ratio = 0.1\n"),
+              HasSubstr("needs dahl_exponent > 0"));
   EXPECT_THAT(refusal(head + "[model.viscous_friction]\n"), HasSubstr("lacks coefficient_per_s"));
   EXPECT_THAT(refusal(head + "[model.viscous_friction]\ncoefficient_per_s = -1\n"), HasSubstr("m.toml:4"));
   EXPECT_THAT(refusal(head + "[model.viscous_friction]\ncoefficient_per_s = 1\nspeed = 2\n"),
