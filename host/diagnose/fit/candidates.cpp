@@ -265,10 +265,12 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
       }
     }
     add(T::presliding_friction, {P::presliding_stiffness}, elastics);
-    add(T::presliding_friction, {P::presliding_stiffness, P::presliding_damping_ratio}, dahls);
+    const bool two_masses =
+        model.has(T::backlash) || model.has(T::flexible_coupling);  // have no such bristle
+    if (!two_masses)
+      add(T::presliding_friction, {P::presliding_stiffness, P::presliding_damping_ratio}, dahls);
   }
-  const double count = facts.count_m > 0 ? facts.count_m : 1e-4 * travel;
-  for (double gap = 4 * count; gap < 0.03 * travel && gaps.size() < 6; gap *= 2.5) {
+  for (double gap = 4 * facts.least_way_m(); gap < 0.03 * travel && gaps.size() < 6; gap *= 2.5) {
     gaps.push_back({{P::backlash_gap, gap},
                     {P::backlash_load_share, 0.5},
                     {P::backlash_load_damping_share, 0.3},

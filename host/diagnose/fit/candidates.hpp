@@ -21,6 +21,8 @@ struct SessionFacts : MotionRange {
   double rate() const { return sample_rate_hz / 1000; }
   double slower() const { return std::min(1.0, rate()); }
   double faster() const { return std::max(1.0, rate()); }
+  /// The least way to look for: a count, or where that is not known a ten thousandth of the travel.
+  double least_way_m() const { return count_m > 0 ? count_m : 1e-4 * travel_m(); }
 };
 SessionFacts facts_of(const Session& session);
 

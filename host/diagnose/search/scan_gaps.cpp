@@ -26,7 +26,7 @@ constexpr double kMostShare = 0.7;     // of the mass, on the cart's side
 /// Starts with the mass in equal parts: gaps along a line, one line for each way friction and damping may be
 /// parted.
 std::vector<std::vector<Model>> lines(const Model& from, const SessionFacts& facts) {
-  const double count = facts.count_m > 0 ? facts.count_m : 1e-4 * facts.travel_m();
+  const double count = facts.least_way_m();
   std::vector<std::vector<Model>> all;
   for (const double friction_share : {0.35, 0.6, 0.85}) {
     for (const double damping_share : {0.2, 0.45}) {
