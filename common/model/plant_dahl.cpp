@@ -37,9 +37,9 @@ double taken(double r, double exponent) noexcept {
 /// carries a share r of its level F that grows the farther the cart moves one way, and damps what it takes of
 /// that way:
 ///
-///     friction = F r + d v (1 - r sgn v)^n
+///     friction = F r + d exp(-(v/w)^2) v (1 - r sgn v)^n
 ///
-/// d damping; with n = 1 the LuGre model. Runge-Kutta between reversals.
+/// d damping, w the speed at which it fades; with n = 1 the LuGre model. Runge-Kutta between reversals.
 void Plant::hold_dahl(double duration_s) noexcept {
   const PlantTerms& p = terms_;
   double left = duration_s;
@@ -58,7 +58,9 @@ void Plant::hold_dahl(double duration_s) noexcept {
       const double share_now = share_at(y_now, level);
       const double pull = level * share_now;
       if (p.bristle_damping == 0) return pull;
-      return pull + p.bristle_damping * v_now * taken(sign_of(v_now) * share_now, p.dahl_exponent);
+      const double x = v_now * p.bristle_inverse_speed;
+      const double damping = p.bristle_damping * faded(x * x);
+      return pull + damping * v_now * taken(sign_of(v_now) * share_now, p.dahl_exponent);
     };
     const auto rate = [&](double y_now, double v_now, double t_now, double drive_now) {
       return p.driven(drive_now, v_now, 1.0) + p.pushes(y_now, t_now) + extra_push_ - friction(y_now, v_now);

@@ -88,6 +88,7 @@ PlantTerms::PlantTerms(const Model& m, bool disturbance_active) {
   bristle_stiffness = value(Term::presliding_friction, Parameter::presliding_stiffness, 0);
   bristle_damping = 2 * value(Term::presliding_friction, Parameter::presliding_damping_ratio, 0) *
                     std::sqrt(bristle_stiffness);
+  bristle_inverse_speed = 1 / m[Parameter::presliding_damping_speed];
   dahl_exponent = value(Term::presliding_friction, Parameter::presliding_dahl_exponent, 0);
   gap = value(Term::backlash, Parameter::backlash_gap, 0);
 

@@ -41,7 +41,7 @@ struct PlantTerms {
   double disturbance_start, disturbance_duration, disturbance_peak;
   double dead_zone, saturation, gain_difference, current_limit;
   double lag_rate, delay, heating_loss, heating_rate;
-  double bristle_stiffness, bristle_damping, dahl_exponent;
+  double bristle_stiffness, bristle_damping, bristle_inverse_speed, dahl_exponent;
   double gap, coupling_stiffness, coupling_damping;
   double load_share, load_friction_share, load_damping_share;
 

@@ -137,6 +137,8 @@ constexpr std::array<ParameterInfo, kParameterCount> kParameters{{
      "0: elastic up to breakaway; 1: gives more and more on the way there"},
     {P::presliding_damping_ratio, T::presliding_friction, "damping_ratio", 0, 10, 0.0,
      "of the cart swinging on a bristle with dahl_exponent > 0"},
+    {P::presliding_damping_speed, T::presliding_friction, "damping_speed_m_per_s", kTiny, kInf, kInf,
+     "speed at which 1/e of that damping is left"},
     {P::disturbance_start, T::external_disturbance, "start_s", -kInf, kInf, {}, "start, on the file's time"},
     {P::disturbance_duration, T::external_disturbance, "duration_s", kTiny, kInf, {}, "duration"},
     {P::disturbance_peak, T::external_disturbance, "peak_m_per_s2", -kInf, kInf, {}, "greatest push"},

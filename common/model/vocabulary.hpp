@@ -91,12 +91,13 @@ enum class Parameter {
   presliding_stiffness,
   presliding_dahl_exponent,
   presliding_damping_ratio,
+  presliding_damping_speed,
   disturbance_start,
   disturbance_duration,
   disturbance_peak,
   amplifier_gain_difference,
 };
-inline constexpr std::size_t kParameterCount = 56;
+inline constexpr std::size_t kParameterCount = 57;
 
 /// The numbers of something that repeats along the way.
 struct PeriodicTerm {

@@ -150,7 +150,9 @@ void Cart::step_one_mass(double t_s, double drive, double h) {
     // less.
     const double reach = most / p_.bristle_per_s2;
     const double yields = p_.bristle_yields ? std::abs(v_m_per_s_) / reach * bristle_m_ : 0;
-    force -= p_.bristle_per_s2 * bristle_m_ + p_.bristle_damping_per_s * (v_m_per_s_ - yields);
+    const double slow = v_m_per_s_ / p_.bristle_damping_speed_m_per_s;
+    force -= p_.bristle_per_s2 * bristle_m_ +
+             p_.bristle_damping_per_s * std::exp(-slow * slow) * (v_m_per_s_ - yields);
     v_m_per_s_ += h * force;
     bristle_m_ = std::clamp(bristle_m_ + h * (v_m_per_s_ - yields), -reach, reach);
   } else {

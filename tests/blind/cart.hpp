@@ -30,7 +30,7 @@ struct CartPhysics {
   double heating_loss = 0, heating_time_s = 1;
   double eccentricity_m = 0, eccentricity_period_m = 1, eccentricity_phase_rad = 0;
   double lost_burst_counts = 0, lost_rate_per_s = 0, lost_speed_m_per_s = 0;
-  double bristle_per_s2 = 0, bristle_damping_per_s = 0;
+  double bristle_per_s2 = 0, bristle_damping_per_s = 0, bristle_damping_speed_m_per_s = kNone;
   bool bristle_yields = false;  // it gives more and more before it slips
   int push_recording = -1;
   double push_start_s = 0, push_duration_s = 1, push_peak_m_per_s2 = 0;

@@ -157,6 +157,13 @@ void conceal(std::string_view name, Draw& d, CartPhysics& p, Truth& t) {
   })->conceal(d, p, t);
 }
 
+void lugre(Draw& d, CartPhysics& p, Truth& t) {
+  conceal("presliding_friction", d, p, t);
+  p.bristle_yields = true;
+  const double ratio = t["presliding_friction.damping_ratio"] = d.between(0.05, 0.5);
+  p.bristle_damping_per_s = 2 * ratio * std::sqrt(p.bristle_per_s2);
+}
+
 /// Named by what stands before the dot.
 const std::vector<Hidden>& laws() {
   static const std::vector<Hidden> list{{"presliding_friction.dahl",
@@ -164,13 +171,13 @@ const std::vector<Hidden>& laws() {
                                            conceal("presliding_friction", d, p, t);
                                            p.bristle_yields = true;
                                          }},
-                                        {"presliding_friction.lugre",
+                                        {"presliding_friction.lugre", lugre},
+                                        {"presliding_friction.fading",
                                          [](Draw& d, CartPhysics& p, Truth& t) {
-                                           conceal("presliding_friction", d, p, t);
-                                           p.bristle_yields = true;
-                                           const double ratio = t["presliding_friction.damping_ratio"] =
-                                               d.between(0.05, 0.5);
-                                           p.bristle_damping_per_s = 2 * ratio * std::sqrt(p.bristle_per_s2);
+                                           lugre(d, p, t);
+                                           p.bristle_damping_speed_m_per_s =
+                                               t["presliding_friction.damping_speed_m_per_s"] =
+                                                   d.between(0.005, 0.03);
                                          }},
                                         {"external_disturbance.sudden",
                                          [](Draw& d, CartPhysics& p, Truth&) {

@@ -14,8 +14,12 @@ using P = Parameter;
 /// and resists the speed at which it gives.
 class DahlBristle {
  public:
-  DahlBristle(double level_m_per_s2, double stiffness_per_s2, double damping_per_s = 0)
-      : level_(level_m_per_s2), per_m_(stiffness_per_s2 / level_m_per_s2), damping_(damping_per_s) {}
+  DahlBristle(double level_m_per_s2, double stiffness_per_s2, double damping_per_s = 0,
+              double damping_speed_m_per_s = INFINITY)
+      : level_(level_m_per_s2),
+        per_m_(stiffness_per_s2 / level_m_per_s2),
+        damping_(damping_per_s),
+        damping_speed_(damping_speed_m_per_s) {}
 
   double push(double t_s, double y_m, double v_m_per_s) {
     if (t_s < last_t_s_) share_ = 0, last_y_m_ = y_m;  // another recording
@@ -23,11 +27,12 @@ class DahlBristle {
     share_ = side * (1 - (1 - side * share_) * std::exp(-per_m_ * std::abs(moved_m)));
     last_t_s_ = t_s, last_y_m_ = y_m;
     const double gives = v_m_per_s * (1 - (v_m_per_s > 0 ? share_ : -share_));
-    return -level_ * share_ - damping_ * gives;
+    const double slow = v_m_per_s / damping_speed_;
+    return -level_ * share_ - damping_ * std::exp(-slow * slow) * gives;
   }
 
  private:
-  double level_, per_m_, damping_;
+  double level_, per_m_, damping_, damping_speed_;
   double share_ = 0, last_y_m_ = 0, last_t_s_ = 1e9;
 };
 
@@ -57,6 +62,22 @@ TEST(Dahl, ADampedBristleIsNamedWithItsDamping) {
   EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
   EXPECT_NEAR(d.model[P::presliding_stiffness], kStiffness, 0.05 * kStiffness);
   EXPECT_NEAR(d.model[P::presliding_damping_ratio], kRatio, 0.05 * kRatio);
+  EXPECT_FALSE(d.unexplained.has_value());
+}
+
+/// Fading, the damping cannot make friction add energy.
+TEST(Dahl, ABristleWhoseDampingFadesIsNamedWithItsNumbers) {
+  constexpr double kStiffness = 1.2e4, kRatio = 0.5, kSpeed_m_per_s = 0.01;
+  DahlBristle bristle(0.6, kStiffness, 2 * kRatio * std::sqrt(kStiffness), kSpeed_m_per_s);
+  test::IndependentCart cart;
+  cart.coulomb_m_per_s2 = 0;
+  cart.push = [&bristle](double t, double y, double v) { return bristle.push(t, y, v); };
+  const Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, 0.6));
+  ASSERT_EQ(d.effects.size(), 1u) << name(d.verdict);
+  EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
+  EXPECT_NEAR(d.model[P::presliding_stiffness], kStiffness, 0.1 * kStiffness);
+  EXPECT_NEAR(d.model[P::presliding_damping_ratio], kRatio, 0.15 * kRatio);
+  EXPECT_NEAR(d.model[P::presliding_damping_speed], kSpeed_m_per_s, 0.15 * kSpeed_m_per_s);
   EXPECT_FALSE(d.unexplained.has_value());
 }
 

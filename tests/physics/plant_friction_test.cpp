@@ -243,14 +243,15 @@ TEST(DahlFriction, SwingsOutWithItsDampingRatio) {
 }
 
 /// The LuGre model in many small steps.
-double lugre_position_m(double level, double stiffness, double damping, const std::vector<double>& pushes,
-                        double each_s) {
+double lugre_position_m(double level, double stiffness, double damping, double damping_speed,
+                        const std::vector<double>& pushes, double each_s) {
   constexpr double kStep_s = 1e-7;
   double y = 0, v = 0, z = 0;
   for (const double push : pushes) {
     for (double t = 0; t < each_s; t += kStep_s) {
       const double stretches = v - stiffness * std::abs(v) / level * z;
-      v += kStep_s * (push - stiffness * z - damping * stretches);
+      const double fading = damping * std::exp(-std::pow(v / damping_speed, 2));
+      v += kStep_s * (push - stiffness * z - fading * stretches);
       z += kStep_s * stretches;
       y += kStep_s * v;
     }
@@ -265,10 +266,24 @@ TEST(DahlFriction, WithDampingIsTheLuGreModel) {
     Plant plant = plant_at(dahl(level, stiffness).set(P::presliding_damping_ratio, ratio), 0);
     for (const double push : pushes) run(plant, push, 0.05);
     const double damping = 2 * ratio * std::sqrt(stiffness);
-    EXPECT_NEAR(plant.state().position_m, lugre_position_m(level, stiffness, damping, pushes, 0.05),
+    EXPECT_NEAR(plant.state().position_m, lugre_position_m(level, stiffness, damping, INFINITY, pushes, 0.05),
                 0.01 * level / stiffness)
         << "damping ratio " << ratio;
   }
+}
+
+TEST(DahlFriction, ItsDampingMayFadeWithTheSpeed) {
+  const double level = 0.5, stiffness = 1e4, ratio = 0.5, speed = 3e-3;
+  const std::vector<double> pushes{0.4, 0.8, -0.6, 0.1, -0.3};
+  Plant plant = plant_at(
+      dahl(level, stiffness).set(P::presliding_damping_ratio, ratio).set(P::presliding_damping_speed, speed),
+      0);
+  for (const double push : pushes) run(plant, push, 0.05);
+  const double damping = 2 * ratio * std::sqrt(stiffness);
+  const double fading_m = lugre_position_m(level, stiffness, damping, speed, pushes, 0.05);
+  const double lasting_m = lugre_position_m(level, stiffness, damping, INFINITY, pushes, 0.05);
+  EXPECT_NEAR(plant.state().position_m, fading_m, 0.01 * level / stiffness);
+  EXPECT_GT(std::abs(fading_m - lasting_m), 0.1 * level / stiffness);
 }
 
 TEST(DahlFriction, WithASmallExponentIsElasticUpToBreakaway) {

@@ -151,6 +151,9 @@ FreeParameter free_parameter(Parameter parameter, const SessionFacts& facts, con
     case P::presliding_damping_ratio:
       free.upper = 2;
       break;
+    case P::presliding_damping_speed:
+      logarithmic(1e-3 * facts.most_speed_m_per_s, facts.most_speed_m_per_s);
+      break;
     case P::presliding_stiffness:
       logarithmic(1e2 * std::pow(facts.slower(), 2), 1e6 * std::pow(facts.faster(), 2));
       break;
@@ -175,7 +178,8 @@ std::vector<FreeParameter> free_parameters(const Model& model, const SessionFact
     if (entry.term == T::encoder_missed_counts) continue;
     if (entry.id == P::presliding_dahl_exponent) continue;  // a law, 0 or 1
     const bool elastic = model[P::presliding_dahl_exponent] == 0;
-    if (entry.id == P::presliding_damping_ratio && elastic) continue;  // not damped
+    if (entry.id == P::presliding_damping_ratio && elastic) continue;                      // not damped
+    if (entry.id == P::presliding_damping_speed && std::isinf(model[entry.id])) continue;  // nor does it fade
     if (of_absent_wave(entry.id, model)) continue;
     free.push_back(free_parameter(entry.id, facts, model));
   }
@@ -234,7 +238,7 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
   }
   add(T::voltage_saturation, {P::saturation_limit}, saturations);
   std::vector<std::vector<std::pair<P, double>>> lags, delays, stribecks, exponentials, heatings, elastics,
-      dahls, gaps, couplings, spots;
+      dahls, fadings, gaps, couplings, spots;
   for (const double late_s : at_both_rates({0.0005, 0.003}, facts, -1)) {
     lags.push_back({{P::armature_time_constant, late_s}});
     delays.push_back({{P::transport_delay, late_s}});
@@ -263,12 +267,17 @@ std::vector<Candidate> candidates(const Model& model, const SessionFacts& facts)
                          {P::presliding_dahl_exponent, 1},
                          {P::presliding_damping_ratio, damping_ratio}});
       }
+      fadings.push_back(dahls.back());
+      fadings.back().emplace_back(P::presliding_damping_speed, 0.03 * facts.most_speed_m_per_s);
     }
     add(T::presliding_friction, {P::presliding_stiffness}, elastics);
     const bool two_masses =
         model.has(T::backlash) || model.has(T::flexible_coupling);  // have no such bristle
-    if (!two_masses)
+    if (!two_masses) {
       add(T::presliding_friction, {P::presliding_stiffness, P::presliding_damping_ratio}, dahls);
+      add(T::presliding_friction,
+          {P::presliding_stiffness, P::presliding_damping_ratio, P::presliding_damping_speed}, fadings);
+    }
   }
   for (double gap = 4 * facts.least_way_m(); gap < 0.03 * travel && gaps.size() < 6; gap *= 2.5) {
     gaps.push_back({{P::backlash_gap, gap},

@@ -1,7 +1,9 @@
 #include "host/diagnose/search/worth_fitting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "host/diagnose/search/promises.hpp"
 
@@ -26,9 +28,12 @@ bool many_minima(Term term) {
          term == Term::stribeck_friction || term == Term::position_dependent_friction;
 }
 
-/// Which of a term's laws: before it breaks away friction gives in one of two ways.
-double law_of(const Promise& promise) {
-  return promise.start[Parameter::presliding_dahl_exponent];
+/// Which of a term's laws: before it breaks away friction is elastic, or gives all along, its damping with
+/// it or fading.
+using Law = std::pair<double, bool>;
+Law law_of(const Promise& promise) {
+  return {promise.start[Parameter::presliding_dahl_exponent],
+          std::isfinite(promise.start[Parameter::presliding_damping_speed])};
 }
 
 /// A coupling with play shows that play more than that it gives; where it is told the other way round, a
@@ -55,7 +60,7 @@ std::vector<Promise> worth_fitting(const std::vector<Promise>& promises, double 
       least_gain / (beside_gap ? kMostGainOverPromiseBesideGap : kMostGainOverPromise);
   const bool no_gap = gives_rather_than_plays(promises);
   std::vector<Promise> chosen;
-  std::map<Term, std::map<double, std::size_t>> starts;  // of each law of each term
+  std::map<Term, std::map<Law, std::size_t>> starts;  // of each law of each term
   for (const Promise& promise : promises) {
     const double bar =
         std::max({kLeastPromise, least_promise, least_share * promises.front().log_likelihood_gain});
