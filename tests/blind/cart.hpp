@@ -65,7 +65,7 @@ struct CartPhysics {
   double count_m = 2.275e-5, reading_noise_m = 5e-6;
 };
 
-/// One run of a cart from rest: semi-implicit Euler in steps of 20 us (5 us with two masses), friction that
+/// One run of a cart from rest: semi-implicit Euler in steps of 4 us (5 us with two masses), friction that
 /// holds by comparing forces.
 class Cart {
  public:

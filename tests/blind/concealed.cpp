@@ -164,38 +164,36 @@ void lugre(Draw& d, CartPhysics& p, Truth& t) {
   p.bristle_damping_per_s = 2 * ratio * std::sqrt(p.bristle_per_s2);
 }
 
+/// Shaped otherwise than its term, whose numbers are then not its own.
+std::function<void(Draw&, CartPhysics&, Truth&)> reshaped(std::string_view name,
+                                                          void (*reshape)(CartPhysics&)) {
+  return [=](Draw& d, CartPhysics& p, Truth&) {
+    Truth of_another_shape;
+    conceal(name, d, p, of_another_shape);
+    reshape(p);
+  };
+}
+
 /// Named by what stands before the dot.
 const std::vector<Hidden>& laws() {
-  static const std::vector<Hidden> list{{"presliding_friction.dahl",
-                                         [](Draw& d, CartPhysics& p, Truth& t) {
-                                           conceal("presliding_friction", d, p, t);
-                                           p.bristle_yields = true;
-                                         }},
-                                        {"presliding_friction.lugre", lugre},
-                                        {"presliding_friction.fading",
-                                         [](Draw& d, CartPhysics& p, Truth& t) {
-                                           lugre(d, p, t);
-                                           p.bristle_damping_speed_m_per_s =
-                                               t["presliding_friction.damping_speed_m_per_s"] =
-                                                   d.between(0.005, 0.03);
-                                         }},
-                                        {"external_disturbance.sudden",
-                                         [](Draw& d, CartPhysics& p, Truth&) {
-                                           Truth of_another_shape;
-                                           conceal("external_disturbance", d, p, of_another_shape);
-                                           p.push_power = 0;
-                                         }},
-                                        {"external_disturbance.half_sine",
-                                         [](Draw& d, CartPhysics& p, Truth&) {
-                                           Truth of_another_shape;
-                                           conceal("external_disturbance", d, p, of_another_shape);
-                                           p.push_power = 1;
-                                         }},
-                                        {"cogging.square", [](Draw& d, CartPhysics& p, Truth&) {
-                                           Truth of_another_shape;
-                                           conceal("cogging", d, p, of_another_shape);
-                                           p.cogging_square = true;
-                                         }}};
+  static const std::vector<Hidden> list{
+      {"presliding_friction.dahl",
+       [](Draw& d, CartPhysics& p, Truth& t) {
+         conceal("presliding_friction", d, p, t);
+         p.bristle_yields = true;
+       }},
+      {"presliding_friction.lugre", lugre},
+      {"presliding_friction.fading",
+       [](Draw& d, CartPhysics& p, Truth& t) {
+         lugre(d, p, t);
+         p.bristle_damping_speed_m_per_s = t["presliding_friction.damping_speed_m_per_s"] =
+             d.between(0.005, 0.03);
+       }},
+      {"external_disturbance.sudden",
+       reshaped("external_disturbance", [](CartPhysics& p) { p.push_power = 0; })},
+      {"external_disturbance.half_sine",
+       reshaped("external_disturbance", [](CartPhysics& p) { p.push_power = 1; })},
+      {"cogging.square", reshaped("cogging", [](CartPhysics& p) { p.cogging_square = true; })}};
   return list;
 }
 

@@ -36,49 +36,44 @@ class DahlBristle {
   double share_ = 0, last_y_m_ = 0, last_t_s_ = 1e9;
 };
 
-/// An elastic bristle leaves a quarter of this and more, which is then refused or gets a second name.
-TEST(Dahl, ABristleThatGivesMoreAndMoreIsNamedWithItsStiffness) {
-  DahlBristle bristle(0.4, 1.2e4);
+/// What the diagnosis makes of a cart that hides it, which must be its name and nothing else.
+Diagnosis named(DahlBristle bristle, double level_m_per_s2) {
   test::IndependentCart cart;
   cart.coulomb_m_per_s2 = 0;
   cart.push = [&bristle](double t, double y, double v) { return bristle.push(t, y, v); };
-  const Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, 0.4));
-  ASSERT_EQ(d.effects.size(), 1u) << name(d.verdict);
-  EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
+  Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, level_m_per_s2));
+  EXPECT_EQ(d.effects.size(), 1u) << name(d.verdict);
+  EXPECT_TRUE(!d.effects.empty() && d.effects.front().term == Term::presliding_friction);
+  EXPECT_FALSE(d.unexplained.has_value());
+  return d;
+}
+
+double damping_per_s(double stiffness_per_s2, double ratio) {
+  return 2 * ratio * std::sqrt(stiffness_per_s2);
+}
+
+/// An elastic bristle leaves a quarter of this and more, which is then refused or gets a second name.
+TEST(Dahl, ABristleThatGivesMoreAndMoreIsNamedWithItsStiffness) {
+  const Diagnosis d = named({0.4, 1.2e4}, 0.4);
   EXPECT_EQ(d.model[P::presliding_dahl_exponent], 1);
   EXPECT_NEAR(d.model[P::presliding_stiffness], 1.2e4, 600);
-  EXPECT_FALSE(d.unexplained.has_value());
 }
 
 /// Without its damping this one is unexplained.
 TEST(Dahl, ADampedBristleIsNamedWithItsDamping) {
   constexpr double kStiffness = 1.2e4, kRatio = 0.3;
-  DahlBristle bristle(0.4, kStiffness, 2 * kRatio * std::sqrt(kStiffness));
-  test::IndependentCart cart;
-  cart.coulomb_m_per_s2 = 0;
-  cart.push = [&bristle](double t, double y, double v) { return bristle.push(t, y, v); };
-  const Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, 0.4));
-  ASSERT_EQ(d.effects.size(), 1u) << name(d.verdict);
-  EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
+  const Diagnosis d = named({0.4, kStiffness, damping_per_s(kStiffness, kRatio)}, 0.4);
   EXPECT_NEAR(d.model[P::presliding_stiffness], kStiffness, 0.05 * kStiffness);
   EXPECT_NEAR(d.model[P::presliding_damping_ratio], kRatio, 0.05 * kRatio);
-  EXPECT_FALSE(d.unexplained.has_value());
 }
 
 /// Fading, the damping cannot make friction add energy.
 TEST(Dahl, ABristleWhoseDampingFadesIsNamedWithItsNumbers) {
   constexpr double kStiffness = 1.2e4, kRatio = 0.5, kSpeed_m_per_s = 0.01;
-  DahlBristle bristle(0.6, kStiffness, 2 * kRatio * std::sqrt(kStiffness), kSpeed_m_per_s);
-  test::IndependentCart cart;
-  cart.coulomb_m_per_s2 = 0;
-  cart.push = [&bristle](double t, double y, double v) { return bristle.push(t, y, v); };
-  const Diagnosis d = diagnose(test::battery(cart), test::nominal(1.9, 5, 0.6));
-  ASSERT_EQ(d.effects.size(), 1u) << name(d.verdict);
-  EXPECT_EQ(d.effects.front().term, Term::presliding_friction);
+  const Diagnosis d = named({0.6, kStiffness, damping_per_s(kStiffness, kRatio), kSpeed_m_per_s}, 0.6);
   EXPECT_NEAR(d.model[P::presliding_stiffness], kStiffness, 0.1 * kStiffness);
   EXPECT_NEAR(d.model[P::presliding_damping_ratio], kRatio, 0.15 * kRatio);
   EXPECT_NEAR(d.model[P::presliding_damping_speed], kSpeed_m_per_s, 0.15 * kSpeed_m_per_s);
-  EXPECT_FALSE(d.unexplained.has_value());
 }
 
 }  // namespace

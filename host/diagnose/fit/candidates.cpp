@@ -28,6 +28,12 @@ bool of_absent_wave(P parameter, const Model& model) {
   });
 }
 
+/// What a presliding bristle has only by a law that the model's does not follow: damping, and its fading.
+bool of_another_law(P parameter, const Model& model) {
+  return (parameter == P::presliding_damping_ratio && model[P::presliding_dahl_exponent] == 0) ||
+         (parameter == P::presliding_damping_speed && std::isinf(model[parameter]));
+}
+
 }  // namespace
 
 SessionFacts facts_of(const Session& session) {
@@ -177,9 +183,7 @@ std::vector<FreeParameter> free_parameters(const Model& model, const SessionFact
     // Speed threshold and rate of lost counts are read off the bursts, not fitted.
     if (entry.term == T::encoder_missed_counts) continue;
     if (entry.id == P::presliding_dahl_exponent) continue;  // a law, 0 or 1
-    const bool elastic = model[P::presliding_dahl_exponent] == 0;
-    if (entry.id == P::presliding_damping_ratio && elastic) continue;                      // not damped
-    if (entry.id == P::presliding_damping_speed && std::isinf(model[entry.id])) continue;  // nor does it fade
+    if (of_another_law(entry.id, model)) continue;
     if (of_absent_wave(entry.id, model)) continue;
     free.push_back(free_parameter(entry.id, facts, model));
   }
