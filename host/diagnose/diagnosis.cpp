@@ -11,6 +11,7 @@
 #include "host/diagnose/judge/further_push.hpp"
 #include "host/diagnose/judge/held_out.hpp"
 #include "host/diagnose/judge/held_out_push.hpp"
+#include "host/diagnose/judge/left_over.hpp"
 #include "host/diagnose/judge/name_from_drive.hpp"
 #include "host/diagnose/judge/prediction_errors.hpp"
 #include "host/diagnose/judge/predicts_no_better.hpp"
@@ -18,6 +19,7 @@
 #include "host/diagnose/judge/statement.hpp"
 #include "host/diagnose/judge/surrogate.hpp"
 #include "host/diagnose/judge/told_apart.hpp"
+#include "host/diagnose/judge/whole_recordings.hpp"
 #include "host/diagnose/locate/acts.hpp"
 #include "host/diagnose/locate/where.hpp"
 #include "host/diagnose/search/lost_counts.hpp"
@@ -41,7 +43,6 @@ constexpr double kWorthTelling = 0.05;
 /// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
 /// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
 constexpr double kGainOverPromise = 5.0;
-constexpr std::size_t kPeriodsTold = 3;
 
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
@@ -88,6 +89,7 @@ class Diagnostician {
     report("replaying windows", 0.88);
     measure(used, held);
     judge(repaired);
+    refit_where_much_is_left(used, held);
     name_effects(repaired);
     name_parameters();
     propose(used);
@@ -161,7 +163,8 @@ class Diagnostician {
       why_refused =
           fmt::format("{:.0f} % of what the model misses is still there, far above chance", 100 * share_left);
     const bool refused = !why_refused.empty();
-    if (refused || of_likelihood > kWorthTelling) describe_left_over(share_left, why_refused);
+    if (refused || of_likelihood > kWorthTelling)
+      result_.unexplained = left_over(result_, share_left, why_refused);
     if (refused) {
       result_.verdict = Verdict::unexplained;
       result_.model = found.refitted.fit.model;
@@ -174,6 +177,21 @@ class Diagnostician {
     } else {
       result_.verdict = values_changed() ? Verdict::parameters_only : Verdict::no_mismatch;
     }
+  }
+
+  /// Errors of one step take what has no name for noise; where that is much, whole recordings know better.
+  void refit_where_much_is_left(const Session& used, const std::vector<std::size_t>& held) {
+    const bool much = result_.unexplained && result_.unexplained->share_left > kMostLeftOfWindows;
+    if (!much || result_.verdict != Verdict::missing_physics) return;
+    report("refitting to whole recordings", 0.89);
+    const Session repaired = without_jumps(used, result_.search.best.jumps);
+    const auto better = fitted_to_whole_recordings(result_.model, repaired, options_.held, options_.threads);
+    if (!better) return;
+    result_.model = *better;
+    measure(used, held);
+    result_.remarks.push_back(
+        "Much stays unexplained, so gain, frictions and steady pushes are those that predict whole "
+        "recordings best.");
   }
 
   /// What no prediction tells the drive itself may: it balances what pushes a cart that a servo moves evenly.
@@ -189,7 +207,7 @@ class Diagnostician {
     const Fit as_it_is = fit(used, result_.model, result_.search.best.fit.noise, {}, fit_options_);
     result_.effects.front().where = Acts(used, as_it_is, with_threads()).where(Term::cogging);
     result_.after = located(used, as_it_is);
-    describe_left_over(drive->share_left(), "");
+    result_.unexplained = left_over(result_, drive->share_left(), "");
     result_.unexplained->closest.reset();
     result_.unexplained->periods_m.clear();
     for (std::size_t i = drive->held; i < drive->lines.size(); ++i)
@@ -214,42 +232,19 @@ class Diagnostician {
     });
   }
 
-  void describe_left_over(double share_left, const std::string& why_refused) {
-    Unexplained left;
-    left.share_left = share_left;
-    left.where = where_of(result_.after);
-    const Profile& over_way = (!why_refused.empty() ? result_.before : result_.after).over_way;
-    for (const std::size_t i : over_way.lines(kPeriodsTold)) left.periods_m.push_back(1 / over_way.at[i]);
-    const auto carrier =
-        std::max_element(result_.after.axes.begin(), result_.after.axes.end(),
-                         [](const AxisMap& a, const AxisMap& b) { return a.gain - a.bar < b.gain - b.bar; });
-    if (carrier != result_.after.axes.end()) left.axis = carrier->axis, left.curve = *carrier;
-    const Search& found = result_.search;
-    if (!found.contests.empty()) {
-      left.closest = found.contests.front().chosen;
-    } else if (!found.promises.empty()) {
-      left.closest = found.promises.front().term;
-    }
-    if (left.closest && !why_refused.empty())
-      left.why_refused =
-          fmt::format("{} comes closest, but with it {}", info(*left.closest).name, why_refused);
-    result_.unexplained = std::move(left);
-  }
-
   void measure(const Session& used, const std::vector<std::size_t>& held) {
     const Search& found = result_.search;
     const Session repaired = without_jumps(used, found.best.jumps);
     const NoiseSize noise = noise_size(found.best.fit, session_.rig, fit_options_.damping_per_s);
     // The floor: the same windows on a cart that is exactly the model found, with the noise found.
     const auto floor_m = [&](const Session& session) {
-      const Model& model = found.best.fit.model;
-      return window_rmse_m(model, surrogate(session, model, noise, 1), options_.threads);
+      return window_rmse_m(result_.model, surrogate(session, result_.model, noise, 1), options_.threads);
     };
     const bool named = !found.contests.empty();
     const auto errors = [&](auto errors_of, const Session& raw, const Session& mended) {
       const std::vector<SquaredError> refitted = errors_of(found.refitted.fit.model, raw, options_.threads);
       const WindowErrors kept{errors_of(nominal_, raw, options_.threads),
-                              named ? errors_of(found.best.fit.model, mended, options_.threads) : refitted};
+                              named ? errors_of(result_.model, mended, options_.threads) : refitted};
       return std::pair{Errors{rms_m(kept.nominal), rms_m(refitted), rms_m(kept.with_effects)}, kept};
     };
     std::tie(result_.used, windows_used_) = errors(window_errors, used, repaired);
@@ -286,7 +281,7 @@ class Diagnostician {
       } else {
         for (const FreeParameter& p : found.best.fit.free) {
           if (info(p.id).term != contest.chosen) continue;
-          effect.parameters.emplace_back(p.id, estimate(found.best.fit, p.id));
+          effect.parameters.emplace_back(p.id, estimate_of(result_.model, found.best.fit, p.id));
           if (found.best.fit.at_bound(p.id)) effect.at_bound.push_back(p.id);
         }
       }
@@ -361,7 +356,8 @@ class Diagnostician {
     const Fit& refit = result_.search.refitted.fit;
     const Fit& fit = result_.verdict == Verdict::missing_physics ? result_.search.best.fit : refit;
     for (const FreeParameter& p : refit.free) {
-      result_.parameters.push_back({p.id, nominal_[p.id], estimate(fit, p.id), refit.model[p.id]});
+      result_.parameters.push_back(
+          {p.id, nominal_[p.id], estimate_of(result_.model, fit, p.id), refit.model[p.id]});
     }
   }
 

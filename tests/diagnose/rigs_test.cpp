@@ -143,6 +143,9 @@ TEST_F(Rigs, FrictionLeftOutOfEmpsIsFoundAndPredictsTheOtherRecord) {
   const auto model = model_from_toml(*published, "emps_published.toml");
   ASSERT_TRUE(model);
   EXPECT_LT(window_rmse_m(d.model, unseen, 2), window_rmse_m(*model, unseen, 2));
+  const Recording& whole = unseen.recordings[0];
+  EXPECT_LT(open_loop_error(replay_open_loop(d.model, whole), whole).rms_m(),
+            open_loop_error(replay_open_loop(*model, whole), whole).rms_m());
 }
 
 }  // namespace

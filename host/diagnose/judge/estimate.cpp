@@ -29,4 +29,12 @@ Estimate estimate(const Fit& fit, Parameter id) {
   return {value, std::max(low, range.lower), std::min(high, range.upper)};
 }
 
+Estimate estimate_of(const Model& model, const Fit& fit, Parameter id) {
+  const Estimate fitted = estimate(fit, id);
+  const double value = model[id];
+  if (value == fitted.value) return fitted;
+  const double half = std::max(value - fitted.low, fitted.high - value);
+  return {value, std::max(value - half, info(id).lower), std::min(value + half, info(id).upper)};
+}
+
 }  // namespace cartwright
