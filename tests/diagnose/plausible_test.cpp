@@ -53,6 +53,16 @@ bool encoder(double eccentricity) {
   return plausible(fit, Term::encoder_eccentricity, session(), of_a_rail());
 }
 
+TEST(Plausible, ExtraFrictionIsExtraToCoulombFriction) {
+  for (const Term extra : {Term::stribeck_friction, Term::position_dependent_friction}) {
+    Fit fit;
+    fit.model = Model(2.0).set(P::stribeck_excess, 0.1).set(P::stribeck_speed, 0.02).set(P::spot_peak, 0.1);
+    EXPECT_FALSE(plausible(fit, extra, session(), of_a_rail())) << info(extra).name;
+    fit.model.set(P::coulomb_level, 0.3);
+    EXPECT_TRUE(plausible(fit, extra, session(), of_a_rail())) << info(extra).name;
+  }
+}
+
 TEST(Plausible, AnEncoderTurnsNearlyAboutItsAxis) {
   EXPECT_TRUE(encoder(0.02));
   EXPECT_FALSE(encoder(0.4));

@@ -12,6 +12,7 @@
 #include "host/diagnose/search/promises.hpp"
 #include "host/diagnose/search/promises_beside_gap.hpp"
 #include "host/diagnose/search/race_beside_gap.hpp"
+#include "host/diagnose/search/refits.hpp"
 #include "host/diagnose/search/worth_fitting.hpp"
 #include "host/parallel.hpp"
 
@@ -23,11 +24,7 @@ constexpr std::size_t kMostStages = 8;
 /// What is found third, a gap among them, mostly makes up for what the numbers of the gap still lack.
 constexpr std::size_t kMostEffectsWithGap = 2;
 constexpr int kMostEvolutions = 3;  // of a gap, after each effect
-constexpr int kRoundsOfSketch = 2;  // of physics and noise, before the best are fitted to the end
-constexpr int kIterationsOfSketch = 6;
 constexpr int kIterationsOfSlowSketch = 3;
-constexpr double kToleranceOfSketch = 2.0;  // nats
-constexpr double kNoiseStepOfSketch = 0.15;
 constexpr double kSketchNearEnough = 0.5;     // of the least gain
 constexpr double kNearTheBest = 0.7;          // of the best gain
 constexpr double kWorthFinishing = 0.3;       // of the best gain
@@ -119,7 +116,7 @@ class Explainer {
     const Explanation& base = search.best;
     const Session data = base.jumps.empty() ? session_ : without_jumps(session_, base.jumps);
     const bool beside_gap = base.has(Term::backlash);
-    FitOptions sketch = options_of_sketch();
+    FitOptions sketch = of_sketch(fit_options_);
     if (base.has_two_masses()) sketch.most_rounds = 1, sketch.most_iterations = kIterationsOfSlowSketch;
     if (beside_gap) sketch = with_kinks(base.fit.model, sketch);
     const std::vector<Promise> promises =
@@ -183,34 +180,10 @@ class Explainer {
     const double bar = base_score + kWorthFinishing * (tried.front().score() - base_score);
     parallel_for(tried.size(), options_.threads, [&](std::size_t i) {
       if (tried[i].score() < bar) return;
-      tried[i].fit = finished(without_jumps(session_, tried[i].jumps), tried[i].fit);
+      tried[i].fit = finished(without_jumps(session_, tried[i].jumps), tried[i].fit, fit_options_);
     });
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score() > b.score(); });
-  }
-
-  /// A sketch, fitted to the end.
-  Fit finished(const Session& data, const Fit& sketch) const {
-    return fit(data, sketch.model, sketch.noise, sketch.free, with_kinks(sketch.model, fit_options_));
-  }
-
-  FitOptions options_of_sketch() const {
-    FitOptions sketch = fit_options_;
-    sketch.most_rounds = kRoundsOfSketch;
-    sketch.most_iterations = kIterationsOfSketch;
-    sketch.tolerance = kToleranceOfSketch;
-    sketch.covariance = false;
-    sketch.finest_noise_step = kNoiseStepOfSketch;
-    return sketch;
-  }
-
-  /// Contact comes and goes: the cost of a model with a gap has kinks, so slopes are taken over wider steps.
-  FitOptions with_kinks(const Model& model, FitOptions options) const {
-    if (!model.has(Term::backlash)) return options;
-    options.difference_step = kStepOverKinks;
-    options.most_rounds = std::min(options.most_rounds, 2);
-    options.tolerance = kToleranceOfSketch;
-    return options;
   }
 
   std::optional<Explanation> lost_counts_on(const Explanation& base) const {
@@ -239,32 +212,12 @@ class Explainer {
     return kept;
   }
 
-  /// The parameters of a fit that are not of this term.
-  static std::vector<FreeParameter> free_beside(const Fit& fit, Term term) {
-    std::vector<FreeParameter> free;
-    std::copy_if(fit.free.begin(), fit.free.end(), std::back_inserter(free),
-                 [&](const FreeParameter& p) { return info(p.id).term != term; });
-    return free;
-  }
-
-  /// An explanation refitted from where it is, one of its effects taken out.
-  Explanation doing_without(const Explanation& from, std::size_t effect) const {
-    Explanation without = from;
-    const Term term = from.effects[effect];
-    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-    Model model = from.fit.model;
-    model.remove(term);
-    without.fit = fit(without_jumps(session_, without.jumps), model, from.fit.noise,
-                      free_beside(from.fit, term), with_kinks(model, fit_options_));
-    return without;
-  }
-
   /// A fit among kinks ends where it cannot go on, and a further effect may gain only because its fit went on
   /// from there. Then what it found without that effect is taken, and the effect is not.
   bool only_went_on(Search& search, const Explanation& further, double bar) const {
     if (!search.best.has(Term::backlash) || further.effects.back() == Term::encoder_missed_counts)
       return false;
-    Explanation without = doing_without(further, further.effects.size() - 1);
+    Explanation without = doing_without(session_, further, further.effects.size() - 1, fit_options_);
     if (further.score() - without.score() >= bar) return false;
     if (without.score() > search.best.score()) search.best = std::move(without);
     return true;
@@ -288,30 +241,6 @@ class Explainer {
     if (best.score() == before) evolved_in_vain_ = before;
   }
 
-  /// An explanation refitted with another term in the place of one of its effects, which starts as it was
-  /// found; to the end only where a sketch scores more than `worth_finishing`.
-  Explanation in_place_of(const Explanation& from, std::size_t effect, const Explanation& rival,
-                          double worth_finishing) const {
-    Explanation swapped = from;
-    const Term old = from.effects[effect], term = rival.effects.back();
-    swapped.effects[effect] = term;
-    Model model = from.fit.model;
-    model.remove(old);
-    if (term == Term::external_disturbance)
-      model.disturbance_recording = rival.fit.model.disturbance_recording;
-    std::vector<FreeParameter> free = free_beside(from.fit, old);
-    for (const FreeParameter& p : rival.fit.free) {
-      if (info(p.id).term == term) free.push_back(p);
-    }
-    for (const ParameterInfo& number : parameters()) {
-      if (number.term == term) model.set(number.id, rival.fit.model[number.id]);
-    }
-    const Session data = without_jumps(session_, from.jumps);
-    swapped.fit = fit(data, model, from.fit.noise, free, with_kinks(model, options_of_sketch()));
-    if (swapped.score() > worth_finishing) swapped.fit = finished(data, swapped.fit);
-    return swapped;
-  }
-
   /// An effect found early may have stood in for a rival that does better beside what was found later. What
   /// every cart has stands in for nothing.
   void swap_stand_ins(Search& search) const {
@@ -328,17 +257,18 @@ class Explainer {
       }
       const double worth_finishing = search.best.score() - (1 - kNearTheBest) * contest.gain;
       parallel_for(rivals.size(), options_.threads, [&](std::size_t n) {
-        rivals[n] = in_place_of(search.best, i, rivals[n], worth_finishing);
+        rivals[n] = in_place_of(session_, search.best, i, rivals[n], worth_finishing, fit_options_);
       });
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
         if (better < options_.least_gain || !plausible(swapped.fit, swapped.effects[i], session_, facts_))
           continue;
-        Explanation beaten = search.best;
-        std::rotate(beaten.effects.begin() + static_cast<std::ptrdiff_t>(i),
-                    beaten.effects.begin() + static_cast<std::ptrdiff_t>(i) + 1, beaten.effects.end());
         const double gain = contest.gain + better;
-        contest = {swapped.effects[i], gain, swapped.score() - gain, swapped, {std::move(beaten)}};
+        contest = {swapped.effects[i],
+                   gain,
+                   swapped.score() - gain,
+                   with_last(swapped, i),
+                   {with_last(search.best, i)}};
         search.best = swapped;
       }
     }
@@ -352,7 +282,7 @@ class Explainer {
     for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
       const Term term = search.best.effects[i];
       if (term == Term::encoder_missed_counts) continue;
-      Explanation without = doing_without(search.best, i);
+      Explanation without = doing_without(session_, search.best, i, fit_options_);
       if (search.best.score() - without.score() >= bar) continue;
       search.best = std::move(without);
       search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));

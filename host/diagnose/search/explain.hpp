@@ -15,7 +15,7 @@ struct Contest {
   Term chosen;
   double gain = 0;                        ///< of the chosen over doing without, in nats, net of its numbers
   double without = 0;                     ///< score of doing without, as it stood then
-  Explanation winner;                     ///< with the chosen, as it stood then
+  Explanation winner;                     ///< with the chosen, told last, as it stood then
   std::vector<Explanation> alternatives;  ///< other terms in its place, best first
 };
 

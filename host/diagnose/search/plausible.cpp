@@ -61,6 +61,9 @@ bool plausible(const Fit& fit, Term effect, const Session& session, const Sessio
   switch (effect) {
     case Term::backlash:
       return fit.model[Parameter::backlash_gap] >= count;
+    case Term::stribeck_friction:
+    case Term::position_dependent_friction:
+      return fit.model.has(Term::coulomb_friction);
     case Term::flexible_coupling:
       return of_two_masses(fit);
     case Term::cogging:
