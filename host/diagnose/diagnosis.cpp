@@ -101,18 +101,16 @@ class Diagnostician {
   }
 
  private:
-  /// Where a cart that is exactly the model shows more than chance, an effect must gain as much more.
   void search_for_physics(const Session& used, SearchOptions search) {
+    // Where a cart that is exactly the model shows more than chance, an effect must gain as much more.
+    search.least_gain = [&](const Fit& refitted) {
+      result_.before = located(used, refitted);
+      return least_gain_ = kLeastGain * result_.before.beyond_chance;
+    };
     result_.search = explain(used, nominal_, search);
-    result_.before = located(used, result_.search.refitted.fit);
-    search.least_gain *= result_.before.beyond_chance;
-    least_gain_ = search.least_gain;
-    const auto gains_too_little = [&](const Contest& one) { return one.gain < search.least_gain; };
-    const std::vector<Contest>& contests = result_.search.contests;
-    if (std::any_of(contests.begin(), contests.end(), gains_too_little))
-      result_.search = explain(used, nominal_, search);
     report("locating what is left", 0.82);
     const Explanation& best = result_.search.best;
+    const std::vector<Contest>& contests = result_.search.contests;
     result_.after = contests.empty() ? result_.before : located(without_jumps(used, best.jumps), best.fit);
   }
 

@@ -50,6 +50,7 @@ class Explainer {
     search.refitted.fit = fit(session_, search.refitted.fit.model, search.refitted.fit.noise,
                               search.refitted.fit.free, fit_options_);
     search.best = search.refitted;
+    if (options_.least_gain) least_gain_ = options_.least_gain(search.refitted.fit);
     bool went_on = false;
     for (std::size_t stage = 0; stage < kMostStages && may_have_more(search.best); ++stage) {
       report("looking for what was left out",
@@ -105,9 +106,7 @@ class Explainer {
   }
 
   /// What a further effect must gain.
-  double least_further_gain(double so_far) const {
-    return std::max(options_.least_gain, kLeastShareOfGain * so_far);
-  }
+  double least_further_gain(double so_far) const { return std::max(least_gain_, kLeastShareOfGain * so_far); }
 
   void set_outlier(const Fit& at) { fit_options_.outlier_m = kOutlierOverNoise * robust_size(at); }
 
@@ -261,8 +260,7 @@ class Explainer {
       });
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
-        if (better < options_.least_gain || !plausible(swapped.fit, swapped.effects[i], session_, facts_))
-          continue;
+        if (better < least_gain_ || !plausible(swapped.fit, swapped.effects[i], session_, facts_)) continue;
         const double gain = contest.gain + better;
         contest = {swapped.effects[i],
                    gain,
@@ -278,7 +276,7 @@ class Explainer {
   /// off until all else is known, it must gain what it had to gain to be found.
   void drop_redundant(Search& search) const {
     const double so_far = search.best.score() - search.refitted.score();
-    const double bar = search.best.has(Term::backlash) ? least_further_gain(so_far) : options_.least_gain;
+    const double bar = search.best.has(Term::backlash) ? least_further_gain(so_far) : least_gain_;
     for (std::size_t i = 0; i + 1 < search.best.effects.size(); ++i) {
       const Term term = search.best.effects[i];
       if (term == Term::encoder_missed_counts) continue;
@@ -299,12 +297,12 @@ class Explainer {
     const Session data = without_jumps(session_, search.best.jumps);
     while (const auto wave =
                scan_further_wave(data, search.best.fit, facts_, fit_options_, options_.threads)) {
-      if (wave->log_likelihood_gain < options_.least_gain / kMostGainOverPromise) return;
+      if (wave->log_likelihood_gain < least_gain_ / kMostGainOverPromise) return;
       Explanation further = search.best;
       further.fit =
           fit(data, wave->start, search.best.fit.noise, wave->free, with_kinks(wave->start, fit_options_));
       const double gain = further.score() - search.best.score();
-      if (gain < options_.least_gain || !plausible(further.fit, Term::cogging, session_, facts_)) return;
+      if (gain < least_gain_ || !plausible(further.fit, Term::cogging, session_, facts_)) return;
       cogging->gain += gain;
       search.best = std::move(further);
     }
@@ -315,6 +313,7 @@ class Explainer {
   const SearchOptions& options_;
   SessionFacts facts_;
   FitOptions fit_options_;
+  double least_gain_ = kLeastGain;  ///< of an effect
   /// The score from which a gap's evolution, the same each time, led nowhere.
   std::optional<double> evolved_in_vain_;
 };

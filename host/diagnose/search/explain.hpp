@@ -30,9 +30,10 @@ struct Search {
 struct SearchOptions {
   unsigned threads = 2;
   std::size_t most_effects = 3;  ///< besides the terms that every cart has: viscous, Coulomb, constant force
-  double least_gain = kLeastGain;  ///< of an effect
-  std::optional<FitOptions> fit;   ///< those for the session and the nominal model, if none are given
-  std::vector<Parameter> held;     ///< of the nominal model: kept as given, because this session cannot tell
+  /// What an effect must gain, told from the refitted nominal model; `kLeastGain` if not given.
+  std::function<double(const Fit& refitted)> least_gain;
+  std::optional<FitOptions> fit;  ///< those for the session and the nominal model, if none are given
+  std::vector<Parameter> held;    ///< of the nominal model: kept as given, because this session cannot tell
   std::function<void(std::string_view what, double share_done)> progress;
 };
 
