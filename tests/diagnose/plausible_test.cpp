@@ -14,6 +14,7 @@ SessionFacts of_a_rail() {
   SessionFacts facts;
   facts.count_m = 2e-5;
   facts.position_low_m = -0.2, facts.position_high_m = 0.2;
+  facts.most_speed_m_per_s = 0.5;
   return facts;
 }
 
@@ -53,14 +54,20 @@ bool encoder(double eccentricity) {
   return plausible(fit, Term::encoder_eccentricity, session(), of_a_rail());
 }
 
-TEST(Plausible, ExtraFrictionIsExtraToCoulombFriction) {
-  for (const Term extra : {Term::stribeck_friction, Term::position_dependent_friction}) {
+TEST(Plausible, FrictionThatIsNotSeenToFallOffIsCoulombs) {
+  const auto only = [](Term term, Parameter width, double value) {
     Fit fit;
-    fit.model = Model(2.0).set(P::stribeck_excess, 0.1).set(P::stribeck_speed, 0.02).set(P::spot_peak, 0.1);
-    EXPECT_FALSE(plausible(fit, extra, session(), of_a_rail())) << info(extra).name;
+    fit.model = Model(2.0).set(P::stribeck_excess, 0.1).set(P::spot_peak, 0.1).set(width, value);
     fit.model.set(P::coulomb_level, 0.3);
-    EXPECT_TRUE(plausible(fit, extra, session(), of_a_rail())) << info(extra).name;
-  }
+    EXPECT_TRUE(plausible(fit, term, session(), of_a_rail()));
+    fit.model.remove(Term::coulomb_friction);
+    return plausible(fit, term, session(), of_a_rail());
+  };
+  const SessionFacts facts = of_a_rail();
+  EXPECT_TRUE(only(Term::stribeck_friction, P::stribeck_speed, 0.4 * facts.most_speed_m_per_s));
+  EXPECT_FALSE(only(Term::stribeck_friction, P::stribeck_speed, 0.6 * facts.most_speed_m_per_s));
+  EXPECT_TRUE(only(Term::position_dependent_friction, P::spot_width, 0.1 * facts.travel_m()));
+  EXPECT_FALSE(only(Term::position_dependent_friction, P::spot_width, 0.4 * facts.travel_m()));
 }
 
 TEST(Plausible, AnEncoderTurnsNearlyAboutItsAxis) {

@@ -19,6 +19,21 @@ constexpr double kLeastEccentricity_counts = 0.5;
 constexpr double kMostHeating = 0.5;
 constexpr double kFastestHeating_s = 0.5;
 
+/// What is left, at the greatest speed or the far end of the way, of friction that was seen to fall off.
+constexpr double kFallenOff = 0.02;
+
+/// Friction that is extra at low speed or at a spot, and the only one, must fall off within the speeds and
+/// the way of the session: else it is Coulomb's.
+bool falls_off(const Model& model, Term effect, const SessionFacts& facts) {
+  const auto square = [](double x) { return x * x; };
+  if (model.has(Term::coulomb_friction)) return true;
+  if (effect == Term::stribeck_friction)
+    return std::exp(-square(facts.most_speed_m_per_s / model[Parameter::stribeck_speed])) < kFallenOff;
+  const double centre_m = model[Parameter::spot_centre];
+  const double far_m = std::max(centre_m - facts.position_low_m, facts.position_high_m - centre_m);
+  return std::exp(-square(far_m / model[Parameter::spot_width]) / 2) < kFallenOff;
+}
+
 /// What is at its height before the errors of its recording count is a start state that does not fit, not a
 /// push.
 bool inside_its_recording(const Model& model, const Session& session) {
@@ -63,7 +78,7 @@ bool plausible(const Fit& fit, Term effect, const Session& session, const Sessio
       return fit.model[Parameter::backlash_gap] >= count;
     case Term::stribeck_friction:
     case Term::position_dependent_friction:
-      return fit.model.has(Term::coulomb_friction);
+      return falls_off(fit.model, effect, facts);
     case Term::flexible_coupling:
       return of_two_masses(fit);
     case Term::cogging:

@@ -13,7 +13,7 @@ double eccentricity_of(const Model& model);
 
 /// Whether an effect was fitted with numbers that its physics can have and that this session can show: away
 /// from its bounds, a gap of a count at least, a period that the way holds twice, a push inside its
-/// recording, extra friction beside the Coulomb friction that it is extra to.
+/// recording, friction of low speed or of a spot that is seen to fall off.
 bool plausible(const Fit& fit, Term effect, const Session& session, const SessionFacts& facts);
 
 }  // namespace cartwright
