@@ -31,6 +31,8 @@ void print_summary(const Diagnosis& d, const std::string& out) {
     for (const auto& [id, e] : effect.parameters) {
       fmt::print("      {} = {:.5g} [{:.5g}, {:.5g}]\n", info(id).key, e.value, e.low, e.high);
     }
+    if (!effect.support.recordings.empty())
+      fmt::print("      {}\n", statement_of_support(effect.support, d.noise_floor_m));
     if (!effect.equivalent.empty()) fmt::print("      also possible: {}\n", names_of(effect.equivalent));
   }
   for (const NominalParameter& p : d.parameters) {

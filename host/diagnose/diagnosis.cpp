@@ -17,6 +17,7 @@
 #include "host/diagnose/judge/predicts_no_better.hpp"
 #include "host/diagnose/judge/remarks.hpp"
 #include "host/diagnose/judge/statement.hpp"
+#include "host/diagnose/judge/support.hpp"
 #include "host/diagnose/judge/surrogate.hpp"
 #include "host/diagnose/judge/told_apart.hpp"
 #include "host/diagnose/judge/whole_recordings.hpp"
@@ -88,6 +89,8 @@ class Diagnostician {
 
     report("replaying windows", 0.88);
     measure(used, held);
+    for (const Contest& contest : found.contests)
+      support_.push_back(support_of(used, found, contest, windows_used_.with_effects, with_threads()));
     judge(repaired);
     refit_where_much_is_left(used, held);
     name_effects(repaired);
@@ -156,6 +159,7 @@ class Diagnostician {
     std::string why_refused = predicts_no_better(result_, windows_used_, windows_unseen_);
     drive_only_balances_ = result_.used.with_effects > result_.uniform_motion_m;
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
+    if (why_refused.empty()) why_refused = unsupported(found.contests, support_, least_gain_);
     const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
     if (why_refused.empty() && (of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood))
       why_refused =
@@ -271,8 +275,9 @@ class Diagnostician {
     for (const Contest& contest : found.contests) gains += contest.gain;
     const double removed = 1 - excess_left(result_.used, result_.noise_floor_m);
     const Acts acts(repaired, found.best.fit, with_threads());
-    for (const Contest& contest : found.contests) {
-      Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, {}, ""};
+    for (std::size_t i = 0; i < found.contests.size(); ++i) {
+      const Contest& contest = found.contests[i];
+      Effect effect{contest.chosen, 0, {}, {}, {}, {}, 0, contest.gain, {}, "", support_[i]};
       effect.where = acts.where(contest.chosen);
       if (contest.chosen == Term::encoder_missed_counts) {
         effect.parameters = lost_counts(repaired, found.best.jumps, result_.model);
@@ -365,6 +370,7 @@ class Diagnostician {
   FitOptions fit_options_ = options_for(session_, nominal_);
   Diagnosis result_;
   WindowErrors windows_used_, windows_unseen_;
+  std::vector<Support> support_;  ///< of each contest
   double held_floor_m_ = 0;
   bool drive_only_balances_ = false;
   double least_gain_ = kLeastGain;  ///< that an effect had to have

@@ -9,6 +9,7 @@
 #include "host/diagnose/drive/drive_balance.hpp"
 #include "host/diagnose/judge/confidence.hpp"
 #include "host/diagnose/judge/next_experiment.hpp"
+#include "host/diagnose/judge/support.hpp"
 #include "host/diagnose/locate/locate.hpp"
 #include "host/diagnose/locate/where.hpp"
 #include "host/diagnose/search/explain.hpp"
@@ -30,6 +31,7 @@ struct Effect {
   double gain = 0;  ///< nats, net of its numbers
   Where where;
   std::string statement;
+  Support support;
 };
 
 struct RunnerUp {

@@ -14,7 +14,7 @@ TEST(ModelWithIntervals, IsAModelFileWhateverItsFlags) {
   Diagnosis d;
   d.model = Model(1.9).set(Parameter::viscous_coefficient, 5).set(Parameter::transport_delay, 0.002);
   d.parameters.push_back({Parameter::voltage_gain, 1.8, {1.9, 1.89, 1.91}, 1.9});
-  Effect effect{Term::transport_delay, 0.9, {}, {}, {}, {}, 0, 50, {}, ""};
+  Effect effect{Term::transport_delay, 0.9, {}, {}, {}, {}, 0, 50, {}, "", {}};
   effect.parameters.emplace_back(Parameter::transport_delay, Estimate{0.002, 0.001, 0.003});
   effect.at_bound = {Parameter::transport_delay};
   effect.equivalent = {Term::armature_lag, Term::presliding_friction};
@@ -24,6 +24,20 @@ TEST(ModelWithIntervals, IsAModelFileWhateverItsFlags) {
   const auto model = model_from_toml(text, "model.toml");
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ((*model)[Parameter::transport_delay], 0.002);
+}
+
+TEST(EffectOfADiagnosis, SaysWhatEachRecordingSays) {
+  Diagnosis d;
+  Effect effect{Term::cogging, 0.9, {}, {}, {}, {}, 0, 50, {}, "", {}};
+  d.effects = {effect};
+  EXPECT_TRUE(nlohmann::json::parse(to_json(d))["effects"][0]["window_rmse_without_m"].is_null());
+  d.effects.front().support.recordings = {{"step.csv", 40, 8}};
+  d.effects.front().support.windows_without_m = 5e-4;
+  const auto json = nlohmann::json::parse(to_json(d))["effects"][0];
+  EXPECT_EQ(json["window_rmse_without_m"], 5e-4);
+  EXPECT_EQ(json["recordings"][0]["file"], "step.csv");
+  EXPECT_EQ(json["recordings"][0]["gain_nats"], 40);
+  EXPECT_EQ(json["recordings"][0]["standard_error_nats"], 8);
 }
 
 TEST(ClosedLoopErrors, AreThereWhereThereIsAController) {

@@ -11,6 +11,7 @@ Explanation behind_by(double behind_nats) {
   one.effects = {Term::constant_force};
   one.fit.error_rms_m = 1;
   one.fit.log_likelihood = -behind_nats;
+  one.fit.blocks = {100};
   for (int block = 0; block < 100; ++block)
     one.fit.block_loss_m2.push_back(1 + 0.02 * behind_nats + (block % 2 == 0 ? 0.01 : -0.01) * behind_nats);
   return one;
@@ -18,7 +19,7 @@ Explanation behind_by(double behind_nats) {
 
 Contest contest_that_gained(double gain_nats) {
   const Explanation winner = behind_by(0);
-  return {Term::asymmetric_viscous_friction, gain_nats, winner.score() - gain_nats, winner, {}};
+  return {Term::asymmetric_viscous_friction, gain_nats, winner.score() - gain_nats, winner, {}, {}};
 }
 
 TEST(ToldApart, WhatIsFarBehindIsWhereAllIsExplained) {

@@ -189,6 +189,7 @@ class Fitter {
     std::map<std::pair<std::string, std::size_t>, Block> by_time;
     for (const Recording& recording : session_.recordings) {
       const std::size_t rows = recording.size() > skip ? recording.size() - skip : 0;
+      result.blocks.push_back((rows + block_rows - 1) / block_rows);
       for (std::size_t begin = 0; begin < rows; begin += block_rows) {
         const std::size_t end = std::min(begin + block_rows, rows);
         const auto n = static_cast<Eigen::Index>(end - begin), first = static_cast<Eigen::Index>(row);
@@ -236,18 +237,29 @@ bool Fit::at_bound(Parameter parameter) const {
   return false;
 }
 
-PairedDifference paired_difference(const Fit& better, const Fit& worse) {
-  const std::size_t blocks = std::min(better.block_loss_m2.size(), worse.block_loss_m2.size());
+std::vector<PairedDifference> differences_by_recording(const Fit& better, const Fit& worse) {
   const double variance = better.error_rms_m * better.error_rms_m;
-  PairedDifference difference;
-  double squares = 0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const double d = (worse.block_loss_m2[b] - better.block_loss_m2[b]) / (2 * variance);
-    difference.nats += d;
-    squares += d * d;
+  std::vector<PairedDifference> out;
+  std::size_t b = 0;
+  for (const std::size_t count : better.blocks) {
+    double nats = 0, squares = 0;
+    for (const std::size_t end = b + count; b < end; ++b) {
+      const double d = (worse.block_loss_m2[b] - better.block_loss_m2[b]) / (2 * variance);
+      nats += d;
+      squares += d * d;
+    }
+    out.push_back({nats, std::sqrt(squares)});
   }
-  difference.spread = std::sqrt(squares);
-  return difference;
+  return out;
+}
+
+PairedDifference paired_difference(const Fit& better, const Fit& worse) {
+  PairedDifference sum;
+  for (const PairedDifference& one : differences_by_recording(better, worse)) {
+    sum.nats += one.nats;
+    sum.spread = std::hypot(sum.spread, one.spread);
+  }
+  return sum;
 }
 
 double noise_variance_m2(double sum, double rows, double least_mean_square) {

@@ -53,6 +53,7 @@ struct Fit {
   double rows = 0;                    ///< errors counted, but for those of a cart at rest
   std::vector<double> error_m;        ///< all counted errors, recordings in order
   std::vector<double> block_loss_m2;  ///< sum of rho(e) per block, in session order
+  std::vector<std::size_t> blocks;    ///< of each recording
   Eigen::MatrixXd jacobian;           ///< de/dp of the free parameters, a row per counted error
   Eigen::MatrixXd covariance;         ///< of the free parameters
   bool converged = false;
@@ -68,6 +69,8 @@ struct PairedDifference {
   double nats = 0, spread = 0;
 };
 PairedDifference paired_difference(const Fit& better, const Fit& worse);
+/// The same of each recording.
+std::vector<PairedDifference> differences_by_recording(const Fit& better, const Fit& worse);
 
 /// A `difference_step` for costs with kinks: contact comes and goes.
 inline constexpr double kStepOverKinks = 0.05;

@@ -40,7 +40,7 @@ void name_from_drive(const DriveBalance& drive, const Model& nominal, Diagnosis&
   d.verdict = Verdict::missing_physics;
   d.model = nominal;
   set_friction(drive, d.model);
-  Effect effect{Term::cogging, 0, {}, {}, {}, {}, 1 - drive.share_left(), 0, {}, ""};
+  Effect effect{Term::cogging, 0, {}, {}, {}, {}, 1 - drive.share_left(), 0, {}, "", {}};
   for (std::size_t i = 0; i < drive.held; ++i) {
     const PeriodicTerm& wave = kCoggingWaves[i];
     const DriveLine& line = drive.lines[i];

@@ -1,10 +1,21 @@
 #include "host/diagnose/judge/prediction_errors.hpp"
 
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
 #include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/replay.hpp"
 #include "host/parallel.hpp"
+#include "host/statistics/distributions.hpp"
 
 namespace cartwright {
+namespace {
+
+constexpr double kBeyondChance = 0.95;  // both sides
+
+}  // namespace
 
 std::vector<SquaredError> window_errors(const Model& model, const Session& session, unsigned threads) {
   std::vector<std::vector<SquaredError>> errors(session.recordings.size());
@@ -33,6 +44,19 @@ double rms_m(const std::vector<SquaredError>& errors) {
 
 double window_rmse_m(const Model& model, const Session& session, unsigned threads) {
   return rms_m(window_errors(model, session, threads));
+}
+
+bool worse_beyond_chance(const std::vector<SquaredError>& by, const std::vector<SquaredError>& than_by) {
+  const std::size_t n = by.size();
+  if (n < 3) return false;
+  Eigen::ArrayXd more(n);  // mean squares of each window
+  for (std::size_t i = 0; i < n; ++i) {
+    more[static_cast<Eigen::Index>(i)] =
+        (by[i].sum_m2 - than_by[i].sum_m2) / static_cast<double>(std::max<std::size_t>(1, by[i].rows));
+  }
+  const double degrees = static_cast<double>(n - 1);
+  const double spread = std::sqrt((more - more.mean()).square().sum() / degrees / static_cast<double>(n));
+  return more.mean() > student_t(kBeyondChance, degrees) * spread;
 }
 
 std::vector<SquaredError> closed_loop_errors(const Model& model, const Session& session, unsigned threads) {

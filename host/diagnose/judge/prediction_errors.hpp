@@ -18,6 +18,10 @@ std::vector<SquaredError> window_errors(const Model& model, const Session& sessi
 /// Root-mean-square error [m] of all of them; NaN where they have no row.
 double rms_m(const std::vector<SquaredError>& errors);
 
+/// Whether windows are predicted worse by one model than by another, window by window, beyond chance (97.5 %,
+/// by Student's t of their mean squares).
+bool worse_beyond_chance(const std::vector<SquaredError>& by, const std::vector<SquaredError>& than_by);
+
 /// The error of each recording with its own controller run on the model from its reference; of no row where a
 /// recording comes without a controller.
 std::vector<SquaredError> closed_loop_errors(const Model& model, const Session& session, unsigned threads);

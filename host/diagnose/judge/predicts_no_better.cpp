@@ -2,36 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-
-#include <algorithm>
-#include <cmath>
-
 #include "host/diagnose/judge/prediction_errors.hpp"
 #include "host/diagnose/judge/statement.hpp"
-#include "host/statistics/distributions.hpp"
 
 namespace cartwright {
 namespace {
 
 constexpr double kClearlyWorse = 1.5;
-constexpr double kSure = 0.95;
 
-/// Whether windows are predicted worse than by the nominal model, window by window beyond chance, and by
-/// half.
+/// Whether windows are predicted worse than by the nominal model, beyond chance and by half.
 bool clearly_worse(const WindowErrors& windows) {
-  const std::size_t n = windows.nominal.size();
-  if (n < 3) return false;
-  Eigen::ArrayXd more(n);  // mean squares of each window, with effects less nominal
-  for (std::size_t i = 0; i < n; ++i) {
-    const SquaredError &with = windows.with_effects[i], &nominal = windows.nominal[i];
-    more[static_cast<Eigen::Index>(i)] =
-        (with.sum_m2 - nominal.sum_m2) / static_cast<double>(std::max<std::size_t>(1, with.rows));
-  }
-  const double degrees = static_cast<double>(n - 1);
-  const double spread = std::sqrt((more - more.mean()).square().sum() / degrees / static_cast<double>(n));
   return rms_m(windows.with_effects) > kClearlyWorse * rms_m(windows.nominal) &&
-         more.mean() > student_t(kSure, degrees) * spread;
+         worse_beyond_chance(windows.with_effects, windows.nominal);
 }
 
 std::string worse(std::string_view which, double with_m, double other_m, std::string_view than) {

@@ -11,6 +11,9 @@ namespace {
 
 using P = Parameter;
 
+/// Less than this of the noise floor lengthens the windows' errors by half a percent.
+constexpr double kHardlyMatters = 0.1;
+
 std::string statement_of_cogging(const Model& m) {
   std::vector<std::string> waves;
   for (const PeriodicTerm& wave : kCoggingWaves) {
@@ -132,6 +135,15 @@ std::string statement_of_left_over(const Unexplained& left) {
   const std::string where = left.curve.flat() ? "no axis shows it above chance"
                                               : fmt::format("most of it lies along {}", left.axis);
   return fmt::format("{:.0f} % of what is missing stays unexplained; {}.", 100 * left.share_left, where);
+}
+
+std::string statement_of_support(const Support& support, double noise_floor_m) {
+  const std::size_t count = support.recordings.size();
+  return fmt::format(
+      "{} of {} recording{} so beyond chance; without it windows would be {} off instead of {}{}.",
+      support.recordings_for(), count, count == 1 ? " says" : "s say", length_text(support.windows_without_m),
+      length_text(support.windows_with_m),
+      support.windows_moved_m() < kHardlyMatters * noise_floor_m ? ", so it hardly matters" : "");
 }
 
 std::string statement_of_next(const NextExperiment& next, bool more_is_missing) {

@@ -68,7 +68,8 @@ class Explainer {
                       tried.front().score() - search.best.score(),
                       search.best.score(),
                       tried.front(),
-                      {}};
+                      {},
+                      search.best};
       search.best = tried.front();
       contest.alternatives.assign(std::make_move_iterator(tried.begin() + 1),
                                   std::make_move_iterator(tried.end()));
@@ -79,6 +80,7 @@ class Explainer {
     }
     if (found_gap_last(search)) evolve_again(search, kMostEvolutions);
     add_cogging_waves(search);
+    refit_without_each(search);
     report("done", 1);
     return search;
   }
@@ -261,12 +263,11 @@ class Explainer {
       for (const Explanation& swapped : rivals) {
         const double better = swapped.score() - search.best.score();
         if (better < least_gain_ || !plausible(swapped.fit, swapped.effects[i], session_, facts_)) continue;
-        const double gain = contest.gain + better;
-        contest = {swapped.effects[i],
-                   gain,
-                   swapped.score() - gain,
-                   with_last(swapped, i),
-                   {with_last(search.best, i)}};
+        contest.chosen = swapped.effects[i];
+        contest.gain += better;
+        contest.without = swapped.score() - contest.gain;
+        contest.winner = with_last(swapped, i);
+        contest.alternatives = {with_last(search.best, i)};
         search.best = swapped;
       }
     }
@@ -281,10 +282,25 @@ class Explainer {
       const Term term = search.best.effects[i];
       if (term == Term::encoder_missed_counts) continue;
       Explanation without = doing_without(session_, search.best, i, fit_options_);
-      if (search.best.score() - without.score() >= bar) continue;
+      if (search.best.score() - without.score() >= bar) {
+        search.contests[i].before = std::move(without);
+        continue;
+      }
       search.best = std::move(without);
       search.contests.erase(search.contests.begin() + static_cast<std::ptrdiff_t>(i));
       return;
+    }
+  }
+
+  /// What is compared with each effect is all the others, and those may have changed since it was found.
+  void refit_without_each(Search& search) const {
+    for (std::size_t i = 0; i < search.contests.size(); ++i) {
+      Contest& contest = search.contests[i];
+      std::vector<Term> others = search.best.effects;
+      std::erase(others, contest.chosen);
+      if (!std::is_permutation(others.begin(), others.end(), contest.before.effects.begin(),
+                               contest.before.effects.end()))
+        contest.before = doing_without(session_, search.best, i, fit_options_);
     }
   }
 

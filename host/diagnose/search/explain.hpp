@@ -17,6 +17,7 @@ struct Contest {
   double without = 0;                     ///< score of doing without, as it stood then
   Explanation winner;                     ///< with the chosen, told last, as it stood then
   std::vector<Explanation> alternatives;  ///< other terms in its place, best first
+  Explanation before;                     ///< `best` without the chosen, everything else refitted
 };
 
 struct Search {

@@ -47,6 +47,7 @@ Explanation doing_without(const Session& session, const Explanation& from, std::
   Explanation without = from;
   const Term term = from.effects[effect];
   without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  if (term == Term::encoder_missed_counts) without.jumps.clear();
   Model model = from.fit.model;
   model.remove(term);
   without.fit = fit(without_jumps(session, without.jumps), model, from.fit.noise, free_beside(from.fit, term),

@@ -44,6 +44,14 @@ Json names(const std::vector<Term>& list) {
   return json;
 }
 
+Json recordings_json(const Support& support) {
+  Json list = Json::array();
+  for (const RecordingSays& r : support.recordings)
+    list.push_back(
+        {{"file", r.file}, {"gain_nats", number(r.nats)}, {"standard_error_nats", number(r.standard_error)}});
+  return list;
+}
+
 Json effect_json(const Effect& effect, const Model& model) {
   Json parameters = Json::object();
   if (effect.term == Term::external_disturbance) parameters["recording"] = model.disturbance_recording;
@@ -57,6 +65,8 @@ Json effect_json(const Effect& effect, const Model& model) {
           {"at_bound", bounds},
           {"share_of_excess_error_removed", number(effect.share_of_excess_error_removed)},
           {"gain_nats", number(effect.gain)},
+          {"recordings", recordings_json(effect.support)},
+          {"window_rmse_without_m", number(effect.support.windows_without_m)},
           {"where", where_json(effect.where)},
           {"statement", effect.statement}};
 }

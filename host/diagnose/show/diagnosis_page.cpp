@@ -12,6 +12,7 @@
 #include "host/evaluate/closed_loop.hpp"
 #include "host/evaluate/replay.hpp"
 #include "host/report/unit.hpp"
+#include "host/statistics/distributions.hpp"
 
 namespace cartwright {
 namespace {
@@ -57,6 +58,34 @@ void verdict(Report& page, const Diagnosis& d) {
   }
 }
 
+/// What each recording says for each effect, and what each effect is worth.
+void add_support(Report& page, const Diagnosis& d) {
+  std::vector<const Effect*> asked;
+  for (const Effect& effect : d.effects) {
+    if (!effect.support.recordings.empty()) asked.push_back(&effect);
+  }
+  if (asked.empty()) return;
+  Table says{
+      "Does every recording say so? How much likelier its readings are with the effect than without "
+      "it, everything else refitted, and 95 % interval",
+      {{"recording"}}};
+  for (const Effect* effect : asked) says.columns.push_back({std::string(info(effect->term).name), "nats"});
+  for (std::size_t r = 0; r < asked.front()->support.recordings.size(); ++r) {
+    std::vector<Cell> row{asked.front()->support.recordings[r].file};
+    for (const Effect* effect : asked) {
+      const RecordingSays& one = effect->support.recordings[r];
+      row.emplace_back(Estimate::within(one.nats, normal(0.95) * one.standard_error));
+    }
+    says.row(std::move(row));
+  }
+  page.table(says);
+  std::vector<std::string> worth;
+  for (const Effect* effect : asked)
+    worth.push_back(fmt::format("{}: {}", info(effect->term).name,
+                                typeset(statement_of_support(effect->support, d.noise_floor_m))));
+  page.list(worth);
+}
+
 void what(Report& page, const Diagnosis& d) {
   page.section("What was left out?");
   if (d.effects.empty()) {
@@ -79,6 +108,7 @@ void what(Report& page, const Diagnosis& d) {
     }
   }
   if (!effects.rows.empty()) page.table(effects);
+  add_support(page, d);
   Table places{
       "Where they act: the stretch, of two ends the stronger, on which an effect's push has twice its mean "
       "power and more (of frequencies the middle 80 %); along other axes it acts everywhere",

@@ -1,0 +1,76 @@
+#include "host/diagnose/judge/support.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/statistics/distributions.hpp"
+
+namespace cartwright {
+namespace {
+
+constexpr double kByChance = 0.01;  // over the recordings of a session
+constexpr double kSays = 0.95;      // both sides
+
+}  // namespace
+
+double Support::windows_moved_m() const {
+  const auto square = [](double x) { return x * x; };
+  return std::sqrt(std::max(square(windows_without_m) - square(windows_with_m), 0.0));
+}
+
+std::size_t Support::recordings_for() const {
+  return static_cast<std::size_t>(std::count_if(
+      recordings.begin(), recordings.end(), [](const RecordingSays& r) { return r.z() > normal(kSays); }));
+}
+
+Support support_of(const Session& session, const Search& search, const Contest& effect,
+                   const std::vector<SquaredError>& windows, FitOptions options) {
+  const Explanation &with = search.best, &without = effect.before;
+  options.move_noise = false;
+  options.covariance = false;
+  const auto as_it_is = [&](const Explanation& one) {
+    return fit(without_jumps(session, one.jumps), one.fit.model, with.fit.noise, {}, options);
+  };
+  Support support;
+  const std::vector<PairedDifference> differences =
+      differences_by_recording(as_it_is(with), as_it_is(without));
+  for (std::size_t r = 0; r < differences.size(); ++r) {
+    const auto [nats, spread] = differences[r];
+    support.recordings.push_back({session.recordings[r].file, nats, spread});
+  }
+  const std::vector<SquaredError> windows_without =
+      window_errors(without.fit.model, without_jumps(session, without.jumps), options.threads);
+  support.windows_with_m = rms_m(windows);
+  support.windows_without_m = rms_m(windows_without);
+  support.windows_get_worse = worse_beyond_chance(windows, windows_without);
+  return support;
+}
+
+const RecordingSays* contradiction(const Support& support, double least_gain) {
+  if (support.recordings.empty()) return nullptr;
+  double all_for = 0;
+  for (const RecordingSays& r : support.recordings) all_for += std::max(r.nats, 0.0);
+  const auto worst =
+      std::min_element(support.recordings.begin(), support.recordings.end(),
+                       [](const RecordingSays& a, const RecordingSays& b) { return a.z() < b.z(); });
+  const double chance = normal(1 - 2 * kByChance / static_cast<double>(support.recordings.size()));
+  const double matters = std::max(least_gain, kLeastShareOfGain * all_for);
+  return worst->z() < -chance && worst->nats < -matters ? &*worst : nullptr;
+}
+
+std::string unsupported(const std::vector<Contest>& effects, const std::vector<Support>& support,
+                        double least_gain) {
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const std::string_view effect = info(effects[i].chosen).name;
+    if (const RecordingSays* against = contradiction(support[i], least_gain))
+      return fmt::format("{} is told worse than without {} (by {:.0f} nats, {:.1f} standard errors)",
+                         against->file, effect, -against->nats, -against->z());
+    if (support[i].windows_get_worse)
+      return fmt::format("windows are predicted worse than without {}, beyond chance", effect);
+  }
+  return "";
+}
+
+}  // namespace cartwright
