@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "host/diagnose/judge/adequacy.hpp"
 #include "host/diagnose/judge/estimate.hpp"
 #include "host/diagnose/judge/further_push.hpp"
 #include "host/diagnose/judge/held_out.hpp"
@@ -34,28 +35,12 @@ using P = Parameter;
 /// A number that a nominal model holds may be this far off before that is worth saying (contract, `verdict`).
 constexpr double kLeastParameterChange = 0.08;
 constexpr double kSureOfChange = 0.997;  // of three numbers or so one is off by chance in 100 sessions
-/// The best candidate is refused when structure is left that chance does not make and, of the excess error of
-/// the windows, more than a fifth is still there; or two fifths of the likelihood to be gained.
-constexpr double kMostLeftOfWindows = 0.2;
-constexpr double kShowsMismatch = 1.5;  // window error over noise floor
-constexpr double kMostLeftOfLikelihood = 0.4;
+constexpr double kShowsMismatch = 1.5;   // window error over noise floor
 /// So much of it left is worth telling beside a name.
 constexpr double kWorthTelling = 0.05;
-/// A regression on fixed errors sees only what the observer's inflated noise lets through; refitted with the
-/// noise free, effects gained 4 to 7 times what it promised (measured over all terms on simulated carts).
-constexpr double kGainOverPromise = 5.0;
 
 double relative_change(double from, double to) {
   return from != 0 ? std::abs(to / from - 1) : (to != 0 ? 1.0 : 0.0);
-}
-
-/// Share of the excess of the window errors, above the floor, that the effects leave; 1 where there is no
-/// excess.
-double excess_left(const Errors& errors, double floor_m) {
-  const double floor = floor_m * floor_m;
-  const double before = errors.refitted * errors.refitted - floor;
-  const double after = errors.with_effects * errors.with_effects - floor;
-  return before > 0 ? std::clamp(after / before, 0.0, 1.0) : 1.0;
 }
 
 class Diagnostician {
@@ -132,16 +117,6 @@ class Diagnostician {
     return options;
   }
 
-  double nats_left() const { return kGainOverPromise * structure_left(result_.after); }
-
-  /// Share of the likelihood to be gained that the best explanation leaves.
-  double likelihood_left() const {
-    const Search& found = result_.search;
-    const double left = nats_left();
-    const double gained = std::max(found.best.score() - found.refitted.score(), 0.0);
-    return left > 0 ? left / (left + gained) : 0;
-  }
-
   /// A push that happened only in the recording kept out would never be found without it. One that does not
   /// stand out is still no reason to refuse what explains all else: the law may have another form than its
   /// term's, so all recordings are asked.
@@ -149,19 +124,19 @@ class Diagnostician {
     const Explanation& best = result_.search.best;
     const HeldOutPush push = push_in(only(session_, held), used, best, fit_options_);
     if (!push.shows || push.stands_out || best.has(Term::backlash)) return push.stands_out;
-    return likelihood_left() <= kMostLeftOfLikelihood;
+    return likelihood_left(result_.after, result_.search) <= kMostLeftOfLikelihood;
   }
 
   void judge(const Session& repaired) {
     const Search& found = result_.search;
-    const double of_likelihood = likelihood_left();
+    const double of_likelihood = likelihood_left(result_.after, found);
     const double of_windows = of_likelihood > 0 ? window_share_left() : 0;
     std::string why_refused = predicts_no_better(result_, windows_used_, windows_unseen_);
     drive_only_balances_ = result_.used.with_effects > result_.uniform_motion_m;
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
     if (why_refused.empty()) why_refused = unsupported(found.contests, support_, least_gain_);
     const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
-    if (why_refused.empty() && (of_windows > kMostLeftOfWindows || of_likelihood > kMostLeftOfLikelihood))
+    if (why_refused.empty() && too_much_left(of_windows, of_likelihood))
       why_refused =
           fmt::format("{:.0f} % of what the model misses is still there, far above chance", 100 * share_left);
     const bool refused = !why_refused.empty();
@@ -306,7 +281,7 @@ class Diagnostician {
     evidence.share_of_gain = contest.gain / gains;
     evidence.share_left = result_.unexplained ? result_.unexplained->share_left : 0;
     evidence.at_bound = static_cast<int>(effect.at_bound.size());
-    const double unexplained = result_.unexplained ? nats_left() : 0;
+    const double unexplained = result_.unexplained ? nats_left(result_.after) : 0;
     const std::size_t before = result_.runner_up.size();
     for (const Explanation& other : contest.alternatives) {
       if (result_.search.best.has(other.effects.back())) continue;  // named as well, beside it

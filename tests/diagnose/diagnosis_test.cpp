@@ -185,6 +185,17 @@ TEST(Diagnosis, RefusesFrictionThatWarmsUp) {
   EXPECT_FALSE(d.unexplained->where.at("time_s").empty());
 }
 
+/// Its edges are in the likelihood; in how far the cart gets they are next to nothing.
+TEST(Diagnosis, ASpotOfFrictionWithSharpEdgesIsStillASpot) {
+  IndependentCart cart;
+  cart.extra_level = [](double, double y, double, double) { return std::abs(y - 0.03) < 0.02 ? 0.3 : 0.0; };
+  const Diagnosis d = diagnose(battery(cart), nominal());
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().term, Term::position_dependent_friction);
+  EXPECT_LT(d.effects.front().confidence, 0.7);
+  EXPECT_TRUE(d.unexplained.has_value());
+}
+
 /// Its ends look like steps of the reading.
 TEST(Diagnosis, APushThatBeginsAndEndsSuddenlyIsAllThereIs) {
   IndependentCart cart;
