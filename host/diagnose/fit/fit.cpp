@@ -285,6 +285,7 @@ CountedErrors counted_errors(const Session& session, const Model& model, const N
   all.reserve(rows);
   ObserverOptions observer;
   observer.step_s = options.step_s;
+  observer.coarsely = options.coarsely;
   const ObserverGains gains = observer_gains(noise, session.rig.period_s(), options.damping_per_s);
   const std::size_t skip = settling_rows(session.rig);
   const std::vector<Observation> observations = observe(model, gains, session, observer, options.threads);

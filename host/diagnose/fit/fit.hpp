@@ -26,6 +26,7 @@ struct FitOptions {
   bool move_noise = true;           ///< fit the observer's noise ratio and correlation time alongside
   double difference_step = 2e-3;    ///< of the finite differences, in units of a parameter's scale
   double step_s = 1e-3;             ///< greatest inner step of the plant
+  bool coarsely = false;            ///< as in ObserverOptions
   double damping_per_s = 5;         ///< of the linear cart behind the observer's gain
   double rest_s = 0;                ///< a cart that stays within a count for so long rests (rest.hpp)
   unsigned threads = 1;             ///< of a pass, which then takes so many recordings at a time

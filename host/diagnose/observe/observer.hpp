@@ -24,7 +24,8 @@ double linear_damping(const Model& model);
 
 struct ObserverOptions {
   bool keep_states = false;
-  double step_s = 1e-3;  ///< greatest inner step of the plant
+  double step_s = 1e-3;   ///< greatest inner step of the plant
+  bool coarsely = false;  ///< stiff friction only as well as tells whether it is worth looking at
 };
 
 /// Runs the physical model beside a recording: the recorded voltage held over each tick, friction sticking

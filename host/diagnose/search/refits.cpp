@@ -26,6 +26,7 @@ FitOptions of_sketch(FitOptions options) {
   options.most_iterations = kIterationsOfSketch;
   options.tolerance = kToleranceOfSketch;
   options.covariance = false;
+  options.coarsely = true;
   options.finest_noise_step = kNoiseStepOfSketch;
   return options;
 }

@@ -19,7 +19,7 @@ constexpr double kLittleData_s = 12;
 constexpr double kMostDisturbance_per_s2 = 3e4;
 /// Once the gap's other numbers are found less of it is left.
 constexpr double kFinestDisturbance = 0.5;
-constexpr int kIterationsOfSketch = 4, kIterationsOfSize = 8;
+constexpr int kIterationsOfGapSketch = 4, kIterationsOfSize = 8;
 constexpr std::size_t kLinesKept = 2;  // once sketched
 constexpr double kMostShare = 0.7;     // of the mass, on the cart's side
 
@@ -83,7 +83,7 @@ std::optional<Promise> scan_gaps(const Session& session, const Fit& base, const 
       if (value > most) most = value, starts[i] = one;
     }
   });
-  quick.most_iterations = kIterationsOfSketch;
+  quick.most_iterations = kIterationsOfGapSketch;
   const std::vector<Fit> sketched = refined(little, starts, noise);
   starts.clear();
   for (std::size_t i = 0; i < std::min(kLinesKept, sketched.size()); ++i) starts.push_back(sketched[i].model);
