@@ -136,7 +136,7 @@ class Diagnostician {
     if (why_refused.empty()) why_refused = further_push(repaired, found, fit_options_);
     if (why_refused.empty()) why_refused = unsupported(found.contests, support_, least_gain_);
     const double share_left = why_refused.empty() ? std::max(of_windows, of_likelihood) : 1;
-    if (why_refused.empty() && too_much_left(of_windows, of_likelihood))
+    if (why_refused.empty() && too_much_left(of_windows, of_likelihood, support_))
       why_refused =
           fmt::format("{:.0f} % of what the model misses is still there, far above chance", 100 * share_left);
     const bool refused = !why_refused.empty();

@@ -39,6 +39,7 @@ TEST(Support, SaysHowManyRecordingsAndWhatTheWindowsOwe) {
   support.windows_without_m = 5e-5;
   support.windows_with_m = 3e-5;
   EXPECT_EQ(support.recordings_for(), 2U);
+  EXPECT_TRUE(support.most_say_so());
   EXPECT_DOUBLE_EQ(support.windows_moved_m(), 4e-5);
 }
 

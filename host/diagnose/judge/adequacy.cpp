@@ -31,9 +31,10 @@ double likelihood_left(const Location& after, const Search& search) {
   return left > 0 ? left / (left + gained) : 0;
 }
 
-bool too_much_left(double of_windows, double of_likelihood) {
-  return of_windows > kMostLeftOfWindows ||
-         (of_likelihood > kMostLeftOfLikelihood && of_windows > kHardlyLeftOfWindows);
+bool too_much_left(double of_windows, double of_likelihood, const std::vector<Support>& effects) {
+  if (of_windows > kMostLeftOfWindows) return true;
+  if (of_likelihood <= kMostLeftOfLikelihood) return false;
+  return effects.size() != 1 || !effects.front().most_say_so() || of_windows > kHardlyLeftOfWindows;
 }
 
 }  // namespace cartwright

@@ -25,6 +25,10 @@ std::size_t Support::recordings_for() const {
       recordings.begin(), recordings.end(), [](const RecordingSays& r) { return r.z() > normal(kSays); }));
 }
 
+bool Support::most_say_so() const {
+  return recordings.size() >= 3 && 2 * recordings_for() > recordings.size();
+}
+
 Support support_of(const Session& session, const Search& search, const Contest& effect,
                    const std::vector<SquaredError>& windows, FitOptions options) {
   const Explanation &with = search.best, &without = effect.before;

@@ -29,6 +29,7 @@ struct Support {
   double windows_moved_m() const;
   /// How many recordings say so, each beyond chance (97.5 %).
   std::size_t recordings_for() const;
+  bool most_say_so() const;  ///< of three recordings at least
 };
 
 /// The noise is taken to be that of the best explanation: what is missing without the effect is then not
