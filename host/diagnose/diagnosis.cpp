@@ -74,8 +74,7 @@ class Diagnostician {
 
     report("replaying windows", 0.88);
     measure(used, held);
-    for (const Contest& contest : found.contests)
-      support_.push_back(support_of(used, found, contest, windows_used_.with_effects, with_threads()));
+    support_ = support_of_effects(used, found, windows_used_.with_effects, with_threads());
     judge(repaired);
     refit_where_much_is_left(used, held);
     name_effects(repaired);

@@ -62,7 +62,7 @@ struct Pushed {
 
   Support support() const {
     const std::vector<SquaredError> windows = window_errors(search.best.fit.model, session, 1);
-    return support_of(session, search, search.contests.front(), windows, options);
+    return support_of_effects(session, search, windows, options).front();
   }
 
   Fit fitted(const Model& start) const {

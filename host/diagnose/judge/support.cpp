@@ -29,27 +29,28 @@ bool Support::most_say_so() const {
   return recordings.size() >= 3 && 2 * recordings_for() > recordings.size();
 }
 
-Support support_of(const Session& session, const Search& search, const Contest& effect,
-                   const std::vector<SquaredError>& windows, FitOptions options) {
-  const Explanation &with = search.best, &without = effect.before;
+std::vector<Support> support_of_effects(const Session& session, const Search& search,
+                                        const std::vector<SquaredError>& windows, FitOptions options) {
   options.move_noise = false;
   options.covariance = false;
-  const auto as_it_is = [&](const Explanation& one) {
-    return fit(without_jumps(session, one.jumps), one.fit.model, with.fit.noise, {}, options);
+  const auto as_it_is = [&](const Session& data, const Explanation& one) {
+    return fit(data, one.fit.model, search.best.fit.noise, {}, options);
   };
-  Support support;
-  const std::vector<PairedDifference> differences =
-      differences_by_recording(as_it_is(with), as_it_is(without));
-  for (std::size_t r = 0; r < differences.size(); ++r) {
-    const auto [nats, spread] = differences[r];
-    support.recordings.push_back({session.recordings[r].file, nats, spread});
+  const Fit with = as_it_is(without_jumps(session, search.best.jumps), search.best);
+  std::vector<Support> all;
+  for (const Contest& effect : search.contests) {
+    const Explanation& without = effect.before;
+    const Session data = without_jumps(session, without.jumps);
+    Support support;
+    for (const PairedDifference& d : differences_by_recording(with, as_it_is(data, without)))
+      support.recordings.push_back({session.recordings[support.recordings.size()].file, d.nats, d.spread});
+    const std::vector<SquaredError> windows_without = window_errors(without.fit.model, data, options.threads);
+    support.windows_with_m = rms_m(windows);
+    support.windows_without_m = rms_m(windows_without);
+    support.windows_get_worse = worse_beyond_chance(windows, windows_without);
+    all.push_back(std::move(support));
   }
-  const std::vector<SquaredError> windows_without =
-      window_errors(without.fit.model, without_jumps(session, without.jumps), options.threads);
-  support.windows_with_m = rms_m(windows);
-  support.windows_without_m = rms_m(windows_without);
-  support.windows_get_worse = worse_beyond_chance(windows, windows_without);
-  return support;
+  return all;
 }
 
 const RecordingSays* contradiction(const Support& support, double least_gain) {

@@ -32,10 +32,11 @@ struct Support {
   bool most_say_so() const;  ///< of three recordings at least
 };
 
-/// The noise is taken to be that of the best explanation: what is missing without the effect is then not
-/// taken for noise in recordings that do not show it. `windows` are those of the best explanation.
-Support support_of(const Session& session, const Search& search, const Contest& effect,
-                   const std::vector<SquaredError>& windows, FitOptions options);
+/// Of each effect of the best explanation. The noise is taken to be that of the whole: what is missing
+/// without an effect is then not taken for noise in recordings that do not show it. `windows` are those of
+/// the whole.
+std::vector<Support> support_of_effects(const Session& session, const Search& search,
+                                        const std::vector<SquaredError>& windows, FitOptions options);
 
 /// Of an effect that is there no recording says that it is not, beyond chance (1 % over all recordings): such
 /// a recording loses by the effect what one must gain, and more than slightly another law would cost.

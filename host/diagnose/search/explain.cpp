@@ -292,14 +292,20 @@ class Explainer {
     }
   }
 
-  /// What is compared with each effect is all the others, and those may have changed since it was found.
+  /// What is compared with each effect is all the others, with all their numbers, and those may have changed
+  /// since it was found.
   void refit_without_each(Search& search) const {
     for (std::size_t i = 0; i < search.contests.size(); ++i) {
       Contest& contest = search.contests[i];
       std::vector<Term> others = search.best.effects;
       std::erase(others, contest.chosen);
-      if (!std::is_permutation(others.begin(), others.end(), contest.before.effects.begin(),
-                               contest.before.effects.end()))
+      const std::vector<Term>& before = contest.before.effects;
+      const std::vector<FreeParameter>& free = search.best.fit.free;
+      const auto others_numbers = std::count_if(free.begin(), free.end(), [&](const FreeParameter& p) {
+        return info(p.id).term != contest.chosen;
+      });
+      if (!std::is_permutation(others.begin(), others.end(), before.begin(), before.end()) ||
+          others_numbers != std::ssize(contest.before.fit.free))
         contest.before = doing_without(session_, search.best, i, fit_options_);
     }
   }
